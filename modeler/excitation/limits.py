@@ -58,10 +58,8 @@ class CollisionGeometry(ShortRepr):
     def place_capsules(self, poses: np.ndarray) -> np.ndarray:
         """Places the ends in frame 0, (n, k, 2, 3), of poses (n, rows, 3, 4)."""
         capsule_frames = self.select_frames(poses)[:, : len(self.ends)]
-        return (
-            np.einsum("nkab,ksb->nksa", capsule_frames[..., :3], self.ends)
-            + capsule_frames[:, :, None, :, 3]
-        )
+        turned = np.einsum("nkab,ksb->nksa", capsule_frames[..., :3], self.ends)
+        return turned + capsule_frames[:, :, None, :, 3]
 
     def compute_distances(self, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Computes distances (n, p), m, and nearest points of axes and planes (n, p, 2, 3).
@@ -90,9 +88,8 @@ def find_nearest_points(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     """
     d, e, r = one[..., 1, :] - one[..., 0, :], other[..., 1, :] - other[..., 0, :], one - other
     r = r[..., 0, :]
-    dd, ee, de, dr, er = (
-        np.sum(a * b, axis=-1) for a, b in ((d, d), (e, e), (d, e), (d, r), (e, r))
-    )
+    pairs = ((d, d), (e, e), (d, e), (d, r), (e, r))
+    dd, ee, de, dr, er = (np.sum(a * b, axis=-1) for a, b in pairs)
     s = np.clip(_compute_ratio(de * er - dr * ee, dd * ee - de**2, 1e-12 * dd * ee), 0.0, 1.0)
     t = np.clip(_compute_ratio(de * s + er, ee), 0.0, 1.0)
     s = np.clip(_compute_ratio(de * t - dr, dd), 0.0, 1.0)
@@ -128,9 +125,7 @@ class ClosestApproach(ShortRepr):
         """Plain data."""
         return {
             "pair": list(self.pair),
-            "distance": self.distance,
-            "bound": self.bound,
-            "time": self.time,
+            **select_attributes(self, "distance bound time"),
             "posture": dict(self.posture),
             "points": self.points.tolist(),
         }
@@ -173,9 +168,8 @@ class Clearance(ShortRepr):
     def compute_shares(self, compiled: CompiledModel, q: np.ndarray) -> np.ndarray:
         """Computes exp((margin - distance) / median radius), (n, pairs): < 1 where far apart."""
         ends = self.solids.place_capsules(compiled.forward_kinematics(q))
-        return np.exp(
-            (self.margin - self.solids.compute_distances(ends)[0]) / self.solids.median_radius
-        )
+        gaps = self.solids.compute_distances(ends)[0]
+        return np.exp((self.margin - gaps) / self.solids.median_radius)
 
     def pull_back_gradient(
         self, compiled: CompiledModel, q: np.ndarray, pull: np.ndarray, steps: np.ndarray
@@ -191,9 +185,8 @@ class Clearance(ShortRepr):
         apart = points[:, :, 0] - points[:, :, 1]
         length = np.linalg.norm(apart, axis=2)
         share = np.exp((self.margin - gaps) / self.solids.median_radius)
-        push = (-pull * share / self.solids.median_radius / np.maximum(length, 1e-12))[
-            ..., None
-        ] * apart
+        push = -pull * share / self.solids.median_radius / np.maximum(length, 1e-12)
+        push = push[..., None] * apart
         moments = np.zeros(poses.shape)
         for column, side in np.ndindex(solids.pairs.shape):
             carrier = solids.carriers[solids.pairs[column, side]]
@@ -206,9 +199,8 @@ class Clearance(ShortRepr):
         slope = np.empty_like(q)
         for j, step in enumerate(steps.tolist()):
             displacement = step * np.eye(len(steps))[j]
-            moved = compiled.forward_kinematics(q + displacement) - compiled.forward_kinematics(
-                q - displacement
-            )
+            ahead, behind = (compiled.forward_kinematics(q + s * displacement) for s in (1, -1))
+            moved = ahead - behind
             slope[:, j] = np.einsum("nrab,nrab->n", moments, moved) / (2.0 * step)
         return slope
 
@@ -232,19 +224,16 @@ def exclude_neighbours(
         ranges: (2, J) lower and upper limits, in which postures are drawn.
         home: (J,) of a robot with loops.
     """
-    q = np.random.default_rng(0).uniform(
-        ranges[0], ranges[1], (THRESHOLDS.contact_postures, ranges.shape[1])
-    )
+    size = (THRESHOLDS.contact_postures, ranges.shape[1])
+    q = np.random.default_rng(0).uniform(ranges[0], ranges[1], size)
     q = np.vstack([q[compiled.closing_status(q) == 0], *([] if home is None else [home])])
     near = Clearance(solids, margin).compute_shares(compiled, q) > 1.0
     often, at_home = near.mean(axis=0), near[-1] & (home is not None)
     out = at_home | (often > THRESHOLDS.max_contact_share)
-    reasons = {
-        solids.get_pair_names(int(k)): "at home"
-        if at_home[k]
-        else f"in {100.0 * often[k]:.0f} % of postures"
-        for k in np.flatnonzero(out)
-    }
+    reasons = {}
+    for k in map(int, np.flatnonzero(out)):
+        share = f"in {100.0 * often[k]:.0f} % of postures"
+        reasons[solids.get_pair_names(k)] = "at home" if at_home[k] else share
     checked_solids = dataclasses.replace(solids, pairs=solids.pairs[~out])
     return Clearance(checked_solids, margin, tuple((*pair, why) for pair, why in reasons.items()))
 
@@ -283,11 +272,8 @@ def find_closest_approach(
         relative_ends = np.einsum("npba,npsb->npsa", frames[..., :3], away)
         h = np.diff(times)
         if not bend.size:
-            bend = (
-                2.0
-                * np.linalg.norm(np.diff(relative_ends, 2, axis=0), axis=3).max(axis=(0, 2))
-                / h[0] ** 2
-            )
+            second = np.linalg.norm(np.diff(relative_ends, 2, axis=0), axis=3)
+            bend = 2.0 * second.max(axis=(0, 2)) / h[0] ** 2
         travel = np.linalg.norm(np.diff(relative_ends, axis=0), axis=3).max(axis=2)
         low = 0.5 * (gaps[1:] + gaps[:-1] - travel) - bend * h[:, None] ** 2 / 8.0
         near = low.min(axis=1) < gaps.min() - THRESHOLDS.clearance_tolerance * solids.median_radius
@@ -297,21 +283,14 @@ def find_closest_approach(
     row, pair = (int(k) for k in np.unravel_index(np.argmin(gaps), gaps.shape))
     direction = points[row, pair, 1] - points[row, pair, 0]
     direction = direction / max(float(np.linalg.norm(direction)), 1e-12)
-    surface = points[row, pair] + np.outer(
-        [1.0, -1.0] * solids.radius[solids.pairs[pair]], direction
-    )
+    radii = [1.0, -1.0] * solids.radius[solids.pairs[pair]]
+    surface = points[row, pair] + np.outer(radii, direction)
     closure = compiled.spec.closure
     names = [j.name for j in compiled.spec.joints] if closure is None else closure.variables
     posture = dict(zip(names, compiled.close(q[row : row + 1])[0].tolist(), strict=True))
     least = float(gaps[row, pair])
-    return ClosestApproach(
-        solids.get_pair_names(pair),
-        least,
-        min(least, float(low.min())),
-        float(at[row]),
-        posture,
-        surface,
-    )
+    names, bound = solids.get_pair_names(pair), min(least, float(low.min()))
+    return ClosestApproach(names, least, bound, float(at[row]), posture, surface)
 
 
 @dataclass(frozen=True)
@@ -453,17 +432,13 @@ class PostureLimits:
     def compute_coupling_sizes(self, q: np.ndarray) -> np.ndarray:
         """Computes the sizes of G of the passive joints, (n, groups)."""
         G = self.compiled.coupling(q) * self.bounds.half_range
-        return np.column_stack(
-            [np.sqrt(np.sum(G[:, places] ** 2, axis=(1, 2))) for places in self.kinds]
-        )
+        sizes = [np.sum(G[:, places] ** 2, axis=(1, 2)) for places in self.kinds]
+        return np.sqrt(np.column_stack(sizes))
 
     def pull_back_gradient(self, q: np.ndarray, pull: np.ndarray) -> np.ndarray:
         """Computes the derivative by q, (n, J), of one with derivative `pull` by the shares."""
-        slope, steps, clearance = (
-            np.zeros_like(q),
-            THRESHOLDS.posture_step * self.bounds.half_range,
-            self.bounds.clearance,
-        )
+        slope, clearance = np.zeros_like(q), self.bounds.clearance
+        steps = THRESHOLDS.posture_step * self.bounds.half_range
         if clearance is not None:
             first = pull.shape[1] - len(clearance.solids.pairs)
             clearance_pull, pull = pull[:, first:], pull[:, :first]
@@ -491,10 +466,8 @@ def build_posture_limits(compiled: CompiledModel, bounds: MotionBounds) -> Postu
     if closure is None or bounds.home is None:
         return plain
     driven = set(closure.given)
-    places = [
-        np.array([i for i, unit in enumerate(closure.units) if i not in driven and unit == kind])
-        for kind in ("rad", "m")
-    ]
+    units = [(i, unit) for i, unit in enumerate(closure.units) if i not in driven]
+    places = [np.array([i for i, unit in units if unit == kind]) for kind in ("rad", "m")]
     kinds = tuple(group for group in places if len(group))
     loops = PostureLimits(compiled, bounds, kinds, ())
     home = loops.compute_coupling_sizes(bounds.home[None, :])[0]
@@ -567,22 +540,17 @@ def find_exceeded_limits(
     """
     step = float(np.median(np.diff(time)))
     k = min(math.ceil(THRESHOLDS.derivative_window / step), (len(time) - 1) // 2)
-    rounded = (
-        10.0**-n
-        for n in range(THRESHOLDS.max_file_digits)
-        if np.allclose(q, q.round(n), 0.0, 1e-12)
-    )
+    digits = range(THRESHOLDS.max_file_digits)
+    rounded = (10.0**-n for n in digits if np.allclose(q, q.round(n), 0.0, 1e-12))
     digit = next(rounded, 0.0)
     v = (q[k:] - q[:-k]) / (time[k:] - time[:-k])[:, None]
     a = 2.0 * (v[k:] - v[:-k]) / (time[2 * k :] - time[: -2 * k])[:, None]
-    excesses = []
+    excesses, factor = [], 1.0 + THRESHOLDS.limit_tolerance
 
     def check_limit(
         what: str, at: np.ndarray, values: np.ndarray, most: np.ndarray, per: str, slack: float
     ) -> None:
-        for j in np.flatnonzero(
-            np.abs(values).max(axis=0) > (1.0 + THRESHOLDS.limit_tolerance) * most + slack
-        ):
+        for j in np.flatnonzero(np.abs(values).max(axis=0) > factor * most + slack):
             i = int(np.abs(values[:, j]).argmax())
             place, step, value = at[i], None, float(values[i, j])
             if values is v:
@@ -594,9 +562,7 @@ def find_exceeded_limits(
             excesses.append(LimitExcess(bounds.joints[j], what, *excess))
 
     reach = bounds.half_range
-    for j in np.flatnonzero(
-        (np.abs(q - bounds.mid_range) > (1.0 + THRESHOLDS.limit_tolerance) * reach).any(axis=0)
-    ):
+    for j in np.flatnonzero((np.abs(q - bounds.mid_range) > factor * reach).any(axis=0)):
         i = int(np.abs(q[:, j] - bounds.mid_range[j]).argmax())
         limit = bounds.upper[j] if q[i, j] > bounds.mid_range[j] else bounds.lower[j]
         details = float(time[i]), float(q[i, j]), float(limit), units[j]

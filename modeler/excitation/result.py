@@ -84,20 +84,14 @@ class InformationGain(ShortRepr):
             gain = a / b if a and b else np.inf if b else 1.0
             rows.append((gain, (name, *cells, unit, f"/ {gain:.3g}" if a and b else "")))
         rows.sort(key=lambda row: -row[0])
-        head, shown = (
-            ("parameter", "sigma before", "expected after", "unit", ""),
-            rows[: THRESHOLDS.max_listed_parameters],
-        )
+        count = THRESHOLDS.max_listed_parameters
+        head, shown = ("parameter", "sigma before", "expected after", "unit", ""), rows[:count]
         table = align_columns([head, *(cells for _, cells in shown)], (0, 3))
         return [
             f"beside {', '.join(self.logs)}: condition number with columns of length one "
             "{:.4g} before, {:.4g} with it; it sharpens".format(*self.condition),
             *(line.rstrip() for line in table),
-            *(
-                [f"and {len(rows) - THRESHOLDS.max_listed_parameters} others, less"]
-                if len(rows) > THRESHOLDS.max_listed_parameters
-                else []
-            ),
+            *([f"and {len(rows) - count} others, less"] if len(rows) > count else []),
         ]
 
     def to_json(self) -> dict[str, Any]:
@@ -230,9 +224,7 @@ class ExcitingMotion(Result):
             "boxes": [vars(box) for box in b.boxes],
             "posture_share": u.posture,
             "singular_share": u.loops,
-            "clearance": None
-            if b.clearance is None
-            else b.clearance.to_json(self.closest_approach),
+            "clearance": b.clearance and b.clearance.to_json(self.closest_approach),
             "ended_early": self.ended_early,
             "next": None if self.gain is None else self.gain.to_json(),
             "series": export_coefficients(self.series, self.x, b.joints),
@@ -251,9 +243,8 @@ def format_csv(columns: Mapping[str, np.ndarray]) -> str:
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(columns)
-    writer.writerows(
-        [f"{value:.12g}" for value in row] for row in np.column_stack([*columns.values()])
-    )
+    rows = np.column_stack([*columns.values()])
+    writer.writerows([f"{value:.12g}" for value in row] for row in rows)
     return out.getvalue()
 
 

@@ -76,9 +76,8 @@ class ExcitationTask:
         here = self.compute_kinematic_shares(x)
         turn = self.compute_kinematic_shares(x + direction) - here
         with np.errstate(divide="ignore", invalid="ignore"):
-            left = np.where(
-                turn == 0.0, np.inf, (self.series.room - np.sign(turn) * here) / np.abs(turn)
-            )
+            left = (self.series.room - np.sign(turn) * here) / np.abs(turn)
+            left = np.where(turn == 0.0, np.inf, left)
         return float(left.min())
 
     def compute_columns(self, motion: Motion) -> np.ndarray:
@@ -88,9 +87,8 @@ class ExcitationTask:
 
     def weigh_columns(self, phi: np.ndarray) -> np.ndarray:
         """Weighs the rows of the selected columns, (n J, k)."""
-        return (phi[:, :, self.column_indices] * self.weights[:, None]).reshape(
-            -1, len(self.column_indices)
-        )
+        weighted = phi[:, :, self.column_indices] * self.weights[:, None]
+        return weighted.reshape(-1, len(self.column_indices))
 
     def compute_rows(self, motion: Motion) -> np.ndarray:
         """Computes the weighted rows of a motion, (n J, k)."""
@@ -124,27 +122,14 @@ class ExcitationTask:
         """
         b = self.bounds
         middle = b.mid_range if b.home is None else b.home
-        place = np.clip(
-            (middle - b.mid_range) / b.half_range,
-            -THRESHOLDS.max_rest_offset,
-            THRESHOLDS.max_rest_offset,
-        )
+        most, load = THRESHOLDS.max_rest_offset, self._compute_rest_load
+        place = np.clip((middle - b.mid_range) / b.half_range, -most, most)
         if self._compute_rest_load(place) > 0.0:
             rng = np.random.default_rng(0)
-            postures = rng.uniform(
-                -THRESHOLDS.max_rest_offset,
-                THRESHOLDS.max_rest_offset,
-                (THRESHOLDS.rest_postures, len(place)),
-            )
+            postures = rng.uniform(-most, most, (THRESHOLDS.rest_postures, len(place)))
             place = min((place, *postures), key=self._compute_rest_load)
-            place = minimise_cma_es(
-                self._compute_rest_load,
-                place,
-                0.1,
-                THRESHOLDS.rest_generations,
-                rng,
-                lambda generation: True,
-            )
+            count = THRESHOLDS.rest_generations
+            place = minimise_cma_es(load, place, 0.1, count, rng, lambda generation: True)
         x = np.zeros((len(place), self.series.values.shape[1]))
         x[:, 0] = b.mid_range + b.half_range * place
         if not self._compute_rest_load(place) < self.share:
@@ -175,13 +160,10 @@ class ExcitationTask:
         ends = (0.0, self.series.duration) if self.columns.compiled.spec.signals else (0.0,)
         try:
             share = float(np.abs(self.posture.compute_shares(q[:1])).max(initial=0.0))
-            read = [
-                self.columns.read_signals((q, qd, 0.0 * q), np.full(len(q), time)) for time in ends
-            ]
-            loads = [
-                self.compute_torque_shares(self.columns.evaluate_exact(q, qd, 0.0 * q, s))
-                for s in read
-            ]
+            motion, count = (q, qd, 0.0 * q), len(q)
+            read = [self.columns.read_signals(motion, np.full(count, time)) for time in ends]
+            phis = [self.columns.evaluate_exact(*motion, s) for s in read]
+            loads = [self.compute_torque_shares(phi) for phi in phis]
         except LoopError:
             return np.inf
         rest = np.hstack(loads)
@@ -259,9 +241,8 @@ class BarrierProblem:
         motion, s, phi, pull, shares, posture, loads = self._state
         n = len(motion[0])
         whole = np.zeros_like(phi)
-        whole[:, :, task.column_indices] = (
-            pull.reshape(n, -1, len(task.column_indices)) * task.weights[:, None]
-        )
+        pull = pull.reshape(n, -1, len(task.column_indices))
+        whole[:, :, task.column_indices] = pull * task.weights[:, None]
         if task.beta is not None and loads.size:
             push = self._compute_barrier_slope(loads, n) / (task.bounds.torque * task.share)
             whole += push[:, :, None] * task.beta
@@ -269,9 +250,8 @@ class BarrierProblem:
         b = task.bounds
         for k, unit in enumerate((b.half_range, b.speed, b.acceleration)):
             slopes[k] += self._compute_barrier_slope(shares[k], n) / (unit * task.series.room)
-        slopes[0] += task.posture.pull_back_gradient(
-            motion[0], self._compute_barrier_slope(posture, n) / task.share
-        )
+        push = self._compute_barrier_slope(posture, n) / task.share
+        slopes[0] += task.posture.pull_back_gradient(motion[0], push)
         basis = (task.series.values, task.series.slopes, task.series.bends)
         total = sum(g.T @ V for g, V in zip(slopes, basis, strict=True))
         return np.ravel(total)
@@ -354,9 +334,8 @@ def design_motion(
             x = improve_motion(task, x, stage, deadline)
             progress((n * len(THRESHOLDS.stages) + m + 1) / parts)
         candidates.append(x)
-    return build_result(
-        task, min(candidates, key=evaluate_motion), request, random_motions, deadline
-    )
+    best_motion = min(candidates, key=evaluate_motion)
+    return build_result(task, best_motion, request, random_motions, deadline)
 
 
 class Deadline:
@@ -409,12 +388,12 @@ def build_result(
     x = task.shrink_to_limits(x, refine_task(task))
     clearance, near = task.bounds.clearance, None
     while clearance is not None and len(clearance.solids.pairs):
-        near = find_closest_approach(
-            task.columns.compiled,
-            clearance.solids,
-            lambda t, x=x: task.series.resample_at(t).evaluate_motion(x)[0],
-            request.duration,  # type: ignore[misc]
-        )
+
+        def compute_path(times: np.ndarray, x: np.ndarray = x) -> np.ndarray:
+            return task.series.resample_at(times).evaluate_motion(x)[0]
+
+        compiled, solids = task.columns.compiled, clearance.solids
+        near = find_closest_approach(compiled, solids, compute_path, request.duration)
         if near.bound >= clearance.margin:
             break
         x = task.rest_motion + THRESHOLDS.clearance_shrinkage * (x - task.rest_motion)
@@ -459,43 +438,29 @@ def build_task(
             f"{compiled.spec.robot}: limits of torques need values of the parameters; expected a "
             "MODEL, or a robot file with all [parameters]"
         )
-    dense = (
-        THRESHOLDS.samples_per_wave
-        if compiled.spec.closure is None
-        else THRESHOLDS.samples_per_wave_in_loops
-    )
+    dense = THRESHOLDS.samples_per_wave
+    if compiled.spec.closure is not None:
+        dense = THRESHOLDS.samples_per_wave_in_loops
     motion = build_series(request.duration, request.harmonics, None, dense, request.family)
     criterion = CRITERIA[request.criterion]
     if prior_information is not None:
         each = request.laps * request.duration * prior_information.rate / len(motion.time)
         criterion = prior_information.extend_criterion(criterion, each)
-    return ExcitationTask(
-        columns,
-        bounds,
-        motion,
-        criterion,
-        np.ones(len(bounds.joints)) if sigma is None else 1.0 / sigma,
-        column_indices,
-        build_posture_limits(compiled, bounds),
-        beta,
-    )
+    weights = np.ones(len(bounds.joints)) if sigma is None else 1.0 / sigma
+    known = weights, column_indices, build_posture_limits(compiled, bounds), beta
+    return ExcitationTask(columns, bounds, motion, criterion, *known)
 
 
 def _check_request(request: MotionRequest) -> None:
     if request.criterion not in CRITERIA:
-        raise DataError(
-            f"criterion: got {request.criterion}; expected one of {', '.join(CRITERIA)}"
-        )
+        names = ", ".join(CRITERIA)
+        raise DataError(f"criterion: got {request.criterion}; expected one of {names}")
     if request.family not in FAMILIES:
         raise DataError(f"family: got {request.family}; expected one of {', '.join(FAMILIES)}")
     if not (math.isfinite(request.duration) and 0.0 < request.duration <= 3600.0):
         raise DataError(f"duration: got {request.duration:g} s; expected more than 0, at most 3600")
-    ranges = (
-        ("harmonics", 2, 40),
-        ("starts", 1, THRESHOLDS.random_motions),
-        ("seed", 0, 2**63),
-        ("laps", 1, 1000),
-    )
+    ranges = [("harmonics", 2, 40), ("starts", 1, THRESHOLDS.random_motions)]
+    ranges += [("seed", 0, 2**63), ("laps", 1, 1000)]
     for name, least, most in ranges:
         value = getattr(request, name)
         if not least <= value <= most:
@@ -522,21 +487,16 @@ def improve_motion(
 
     landscape = ObjectiveFunction(
         value=lambda flat: walled.compute_value(reshape_coefficients(flat)),
-        gradient=lambda flat: (
-            walled.compute_gradient() * unit.ravel()
-        ),  # where the value was asked for last
-        boundary_distance=lambda flat, way: task.compute_reach(
-            reshape_coefficients(flat), reshape_coefficients(way)
-        ),
+        gradient=lambda flat: walled.compute_gradient() * unit.ravel(),  # of the last value
+        boundary_distance=lambda *pair: task.compute_reach(*map(reshape_coefficients, pair)),
     )
     for _ in range(THRESHOLDS.max_retreats):
         start = (x / unit).ravel()
         if not has_time():
             break
         if np.isfinite(landscape.value(start)):
-            return reshape_coefficients(
-                minimise_bfgs(landscape, start, steps, THRESHOLDS.criterion_tolerance, has_time)
-            )
+            settings = steps, THRESHOLDS.criterion_tolerance, has_time
+            return reshape_coefficients(minimise_bfgs(landscape, start, *settings))
         x = task.rest_motion + 0.9 * (x - task.rest_motion)
     return x
 
@@ -552,18 +512,14 @@ def choose_harmonics(bounds: MotionBounds, duration: float) -> int:
 def compute_quality(task: ExcitationTask, x: np.ndarray) -> MotionQuality:
     """Computes the quality of a motion."""
     W = task.compute_rows(task.series.evaluate_motion(x))
-    return MotionQuality(
-        compute_condition(W), compute_condition(W, scaled=False), compute_log_det(W)
-    )
+    conditions = [compute_condition(W, scaled) for scaled in (True, False)]
+    return MotionQuality(*conditions, compute_log_det(W))
 
 
 def refine_task(task: ExcitationTask) -> ExcitationTask:
     """Returns the same with ten times the samples, and nearly all of the limits."""
-    return dataclasses.replace(
-        task,
-        series=task.series.refine_samples(THRESHOLDS.check_refinement),
-        share=THRESHOLDS.checked_share,
-    )
+    series = task.series.refine_samples(THRESHOLDS.check_refinement)
+    return dataclasses.replace(task, series=series, share=THRESHOLDS.checked_share)
 
 
 def compute_usage(task: ExcitationTask, x: np.ndarray) -> LimitUsage:
@@ -575,15 +531,10 @@ def compute_usage(task: ExcitationTask, x: np.ndarray) -> LimitUsage:
         s = fine.columns.read_signals((q, qd, qdd), fine.series.time)
         loads = np.abs(fine.columns.evaluate_exact(q, qd, qdd, s) @ task.beta).max(axis=0)
     posture = fine.posture.compute_shares(q)
-    return LimitUsage(
-        q.min(axis=0),
-        q.max(axis=0),
-        np.abs(qd).max(axis=0),
-        np.abs(qdd).max(axis=0),
-        loads,
-        float(np.abs(posture).max()) if posture.size else None,
-        float(posture[:, : len(fine.posture.kinds)].max()) if fine.posture.kinds else None,
-    )
+    largest, kinds = [np.abs(x).max(axis=0) for x in (qd, qdd)], len(fine.posture.kinds)
+    share = float(np.abs(posture).max()) if posture.size else None
+    loops = float(posture[:, :kinds].max()) if kinds else None
+    return LimitUsage(q.min(axis=0), q.max(axis=0), *largest, loads, share, loops)
 
 
 def draw_random_motion(task: ExcitationTask, rng: np.random.Generator) -> np.ndarray:
@@ -602,15 +553,11 @@ def draw_random_motion(task: ExcitationTask, rng: np.random.Generator) -> np.nda
     for j in range(joints):
         q = s.values[:, 1:] @ x[j, 1:]
         extent = 0.5 * np.ptp(q)
-        shares = (
-            extent / b.half_range[j],
-            np.abs(s.slopes @ x[j]).max() / b.speed[j],
-            np.abs(s.bends @ x[j]).max() / b.acceleration[j],
-        )
+        shares = [extent / b.half_range[j], np.abs(s.slopes @ x[j]).max() / b.speed[j]]
+        shares.append(np.abs(s.bends @ x[j]).max() / b.acceleration[j])
         x[j] *= THRESHOLDS.random_share * s.room / max(shares)
         q = s.values[:, 1:] @ x[j, 1:]
-        least, most = (
-            THRESHOLDS.random_share * s.room * b.half_range[j] * np.array([-1, 1]) + b.mid_range[j]
-        )
+        room = THRESHOLDS.random_share * s.room * b.half_range[j]
+        least, most = room * np.array([-1, 1]) + b.mid_range[j]
         x[j, 0] = rng.uniform(least - q.min(), max(most - q.max(), least - q.min()))
     return task.shrink_to_limits(x)

@@ -182,11 +182,7 @@ class Fleet(Result):
                 "verdict": self.verdict,
                 "time": self.unit,
                 **select_attributes(self, "logs machines"),
-                "findings": [
-                    _build_finding_json(finding)
-                    | {"sentence": describe_finding(finding, self.unit)}
-                    for finding in self.findings
-                ],
+                "findings": [_build_finding_json(f, self.unit) for f in self.findings],
                 "quantities": [_build_history_json(each) for each in self.histories],
                 "false_alarm": self.false_alarm,
                 "not_told": self.unidentified,
@@ -199,7 +195,7 @@ class Fleet(Result):
 _QUANTITY = "effect joint parameter unit"
 
 
-def _build_finding_json(finding: FleetFinding) -> dict[str, Any]:
+def _build_finding_json(finding: FleetFinding, unit: Unit) -> dict[str, Any]:
     temperature = finding.temperature
     return {
         "machine": finding.machine,
@@ -217,20 +213,21 @@ def _build_finding_json(finding: FleetFinding) -> dict[str, Any]:
             "moves_along": temperature.is_correlated,
             "others_alike": temperature.is_shared,
         },
+        "sentence": describe_finding(finding, unit),
     }
 
 
 def _build_history_json(each: QuantityHistory) -> dict[str, Any]:
+    machines = {}
+    for name, values in each.machines.items():
+        machines[name] = select_attributes(values, "periods at values sigmas")
+        machines[name]["score"] = each.scores.get(name)
     return {
         **select_attributes(each.quantity, _QUANTITY),
         "level": each.level,
         "scatter_factor": each.factor,
         "would_be_told": each.smallest_detectable,
-        "machines": {
-            name: select_attributes(values, "periods at values sigmas")
-            | {"score": each.scores.get(name)}
-            for name, values in each.machines.items()
-        },
+        "machines": machines,
     }
 
 
@@ -250,12 +247,10 @@ def format_effect_title(quantity: Quantity) -> str:
 def describe_finding(finding: FleetFinding, unit: Unit) -> str:
     """Describes one finding, with what it may be instead."""
     quantity = finding.quantity
-    where = f"machine {finding.machine}" + (
-        "" if quantity.joint is None else f", joint {quantity.joint}"
-    )
-    named = format_effect_title(quantity) + (
-        "" if quantity.column < 0 else f" ({quantity.parameter})"
-    )
+    where = f"machine {finding.machine}"
+    where += "" if quantity.joint is None else f", joint {quantity.joint}"
+    named = format_effect_title(quantity)
+    named += "" if quantity.column < 0 else f" ({quantity.parameter})"
     line = f"{where}: {named} {_describe_change(finding, unit)}"
     temperature = finding.temperature
     if temperature is None or not temperature.is_correlated:
@@ -328,10 +323,8 @@ def format_fleet(fleet: Fleet) -> list[str]:
 
 def format_skipped(fleet: Fleet) -> list[str]:
     """Formats the logs that were not used, and why."""
-    return [
-        f"left out: {why if place in why else f'{place}: {why}'}"
-        for place, why in fleet.skipped_logs
-    ]
+    texts = (why if place in why else f"{place}: {why}" for place, why in fleet.skipped_logs)
+    return [f"left out: {text}" for text in texts]
 
 
 HEAD = "joint, effect, parameter, level, unit, scatter, told"
@@ -340,21 +333,14 @@ HEAD = "joint, effect, parameter, level, unit, scatter, told"
 
 def build_table_rows(fleet: Fleet) -> list[list[str]]:
     """Builds the header, and a row for each quantity."""
-    return [
-        HEAD.split(", "),
-        *(
-            [
-                each.quantity.joint or "-",
-                format_effect_title(each.quantity),
-                each.quantity.parameter,
-                f"{each.level:.4g}" if each.level == each.level else "-",
-                each.quantity.unit,
-                f"{each.factor:.2f}",
-                "-" if each.smallest_detectable is None else f"{each.smallest_detectable:.2g}",
-            ]
-            for each in fleet.histories
-        ),
-    ]
+    rows = [HEAD.split(", ")]
+    for each in fleet.histories:
+        quantity, least = each.quantity, each.smallest_detectable
+        level = f"{each.level:.4g}" if each.level == each.level else "-"
+        cells = [quantity.joint or "-", format_effect_title(quantity), quantity.parameter, level]
+        cells += [quantity.unit, f"{each.factor:.2f}", "-" if least is None else f"{least:.2g}"]
+        rows.append(cells)
+    return rows
 
 
 def analyse_fleet(spec: ModuleSpec, summaries: Sequence[LogSummary | SkippedLog]) -> Fleet:
@@ -374,9 +360,8 @@ def analyse_fleet(spec: ModuleSpec, summaries: Sequence[LogSummary | SkippedLog]
     Raises:
         DataError: no usable logs, too few to compare, rows given twice, nothing that may drift.
     """
-    used, foreign, foreign_notes = separate_foreign_logs(
-        [log for log in summaries if isinstance(log, LogSummary)]
-    )
+    reduced = [log for log in summaries if isinstance(log, LogSummary)]
+    used, foreign, foreign_notes = separate_foreign_logs(reduced)
     apart = [*(each for each in summaries if isinstance(each, SkippedLog)), *foreign]
     left = tuple((each.log_name.place, each.reason) for each in apart)
     _check_logs(used, left)
@@ -386,13 +371,10 @@ def analyse_fleet(spec: ModuleSpec, summaries: Sequence[LogSummary | SkippedLog]
     tests = evaluate_quantities(layout, fit, logs, at)
     findings = _build_findings(tests, logs)
     machines = _list_machines(logs)
-    unused_machines = dict.fromkeys(
-        e.log_name.machine for e in apart if e.log_name.machine not in machines
-    )
-    unseen = [
-        f"{name}: none of its logs could be used: nothing is known of it"
-        for name in unused_machines
-    ]
+    unused = dict.fromkeys(each.log_name.machine for each in apart)
+    unused_machines = [name for name in unused if name not in machines]
+    text = "none of its logs could be used: nothing is known of it"
+    unseen = [f"{name}: {text}" for name in unused_machines]
     return Fleet(
         robot=spec.robot,
         unit=unit,
@@ -435,14 +417,11 @@ def _build_findings(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[Fl
     for (m, i), move in tests.drifts.items():
         log_indices, quantity = tests.find_logs(m, i), tests.quantities[i]
         periods = [logs[k].log_name.period for k in log_indices]
-        trend = move.shape == "trend"
-        both = [
-            (
-                [logs[k] for k in tests.find_logs(other, i)],
-                tests.values[tests.find_logs(other, i), i],
-            )
-            for other in (m, *(o for o in range(tests.machine_count) if o != m))
-        ]
+        trend, at = move.shape == "trend", tests.at[log_indices]
+        line, span = compute_line(move, at), float(at[-1] - at[0])
+        order = (m, *(o for o in range(tests.machine_count) if o != m))
+        places = [tests.find_logs(other, i) for other in order]
+        both = [([logs[k] for k in place], tests.values[place, i]) for place in places]
         findings.append(
             FleetFinding(
                 machine=logs[log_indices[0]].log_name.machine,
@@ -450,32 +429,27 @@ def _build_findings(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[Fl
                 shape=move.shape,
                 begin=periods[move.begin],
                 end=periods[-1 if trend else move.begin],
-                length=float(tests.at[log_indices[-1]] - tests.at[log_indices[0]])
-                if trend
-                else 0.0,
+                length=span if trend else 0.0,
                 before=move.level,
                 change=move.change,
                 sigma=move.sigma,
                 score=move.score,
                 chance=move.chance,
-                temperature=compare_temperature(
-                    both[0], quantity.joint, compute_line(move, tests.at[log_indices]), both[1:]
-                ),
+                temperature=compare_temperature(both[0], quantity.joint, line, both[1:]),
                 since=len(log_indices) - move.begin,
             )
         )
     for (m, i), outlier in tests.outliers.items():
         log_indices = tests.find_logs(m, i)
-        mean = float(
-            np.average(tests.values[log_indices, i], weights=tests.sigmas[log_indices, i] ** -2.0)
-        )
+        weights = tests.sigmas[log_indices, i] ** -2.0
+        mean = float(np.average(tests.values[log_indices, i], weights=weights))
         findings.append(
             FleetFinding(
-                machine=logs[log_indices[0]].named.machine,
+                machine=logs[log_indices[0]].log_name.machine,
                 quantity=tests.quantities[i],
                 shape="odd machine",
-                begin=logs[log_indices[0]].named.period,
-                end=logs[log_indices[-1]].named.period,
+                begin=logs[log_indices[0]].log_name.period,
+                end=logs[log_indices[-1]].log_name.period,
                 length=float(tests.at[log_indices[-1]] - tests.at[log_indices[0]]),
                 before=mean - outlier.difference,
                 change=outlier.difference,
@@ -500,17 +474,15 @@ def _summarise_quantities(
                 name = logs[log_indices[0]].log_name.machine
                 sigmas = tests.scatters[i].compute_sigmas(tests.get_series(m, i))
                 names = tuple(logs[k].log_name.period for k in log_indices)
-                machines[name] = QuantityValues(
-                    tests.at[log_indices], names, tests.values[log_indices, i], sigmas
-                )
+                values = tests.values[log_indices, i]
+                machines[name] = QuantityValues(tests.at[log_indices], names, values, sigmas)
                 if (m, i) in tests.scores:
                     scores[name] = tests.scores[m, i]
         known = tests.values[np.isfinite(tests.values[:, i]), i]
         level = float(np.median(known)) if known.size else float("nan")
         factor = tests.scatters[i].factor
-        histories.append(
-            QuantityHistory(quantity, level, factor, tests.find_smallest_drift(i), machines, scores)
-        )
+        least = tests.find_smallest_drift(i)
+        histories.append(QuantityHistory(quantity, level, factor, least, machines, scores))
     return tuple(histories)
 
 
@@ -540,19 +512,14 @@ def _list_machines(logs: Sequence[LogSummary]) -> dict[str, tuple[str, ...]]:
     """Periods by machine."""
     machines: dict[str, tuple[str, ...]] = {}
     for each in logs:
-        machines[each.log_name.machine] = (
-            *machines.get(each.log_name.machine, ()),
-            each.log_name.period,
-        )
+        name = each.log_name
+        machines[name.machine] = (*machines.get(name.machine, ()), name.period)
     return machines
 
 
 def _collect_notes(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[str]:
     machines = _list_machines(logs)
-    notes = [
-        *describe_undetectable_drifts(tests, logs),
-        *describe_unknown_scatter(tests, len(logs)),
-    ]
+    notes = describe_undetectable_drifts(tests, logs) + describe_unknown_scatter(tests, len(logs))
     single = [name for name, periods in machines.items() if len(periods) < 2]
     if single:
         notes.append(
@@ -563,10 +530,9 @@ def _collect_notes(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[str
             f"{len(machines)} machine{'s' * (len(machines) > 1)}: an odd one among fewer than "
             f"{FLEET_THRESHOLDS.min_machines} is not told"
         )
+    known = np.isfinite(tests.values).any(axis=0)
     blind = [
-        q.parameter
-        for i, q in enumerate(tests.quantities)
-        if not np.isfinite(tests.values[:, i]).any()
+        q.parameter for q, is_known in zip(tests.quantities, known, strict=True) if not is_known
     ]
     if blind:
         notes.append(f"{', '.join(blind)}: no log tells it from the other parameters")
@@ -576,12 +542,9 @@ def _collect_notes(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[str
 def describe_undetectable_drifts(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[str]:
     """Describes each machine whose logs hide a drift that those of others would show."""
     names = list(dict.fromkeys(each.log_name.machine for each in logs))
-    sigmas = np.array(
-        [
-            [_compute_usual_sigma(tests, m, i) for i in range(len(tests.quantities))]
-            for m in range(tests.machine_count)
-        ]
-    )
+    columns, count = range(len(tests.quantities)), tests.machine_count
+    every = [[_compute_usual_sigma(tests, m, i) for i in columns] for m in range(count)]
+    sigmas = np.array(every)
     sentences = []
     for m, name in enumerate(names):
         hidden = []
@@ -608,20 +571,15 @@ def _compute_usual_sigma(tests: QuantityTests, m: int, i: int) -> float:
     log_indices = tests.find_logs(m, i)
     if log_indices.size:
         return float(np.median(tests.sigmas[log_indices, i]))
-    load = (
-        tests.quantities[i].column < 0
-        and tests.loaded_machines is not None
-        and m in tests.loaded_machines
-    )
+    load = tests.quantities[i].column < 0 and m in (tests.loaded_machines or ())
     return float("nan") if load else float("inf")
 
 
 def describe_unknown_scatter(tests: QuantityTests, logs: int) -> list[str]:
     """Describes that the scatter from period to period comes from few changes."""
-    count = max(
-        sum(len(tests.get_series(m, i).standardised_changes) for m in range(tests.machine_count))
-        for i in range(len(tests.quantities))
-    )
+    machines, columns = range(tests.machine_count), range(len(tests.quantities))
+    series = ((tests.get_series(m, i) for m in machines) for i in columns)
+    count = max(sum(len(one.standardised_changes) for one in each) for each in series)
     if count >= FLEET_THRESHOLDS.min_changes or logs == tests.machine_count:
         return []
     return [
@@ -658,14 +616,11 @@ def compare_temperature(
     is_varying = span > 0.0 and total > 0.0
     correlation = float(np.corrcoef(degrees, values)[0, 1]) if is_varying else np.nan
     shape = 1.0 - float(np.var(values - line)) / total if is_varying else 1.0
-    along = span >= FLEET_THRESHOLDS.min_temperature_span and correlation**2 >= max(
-        FLEET_THRESHOLDS.min_temperature_variance, FLEET_THRESHOLDS.min_temperature_share * shape
-    )
-    slopes = [
-        slope
-        for other in others
-        if (slope := _fit_temperature_slope(other, joint, 0.5 * span)) is not None
-    ]
+    limits = FLEET_THRESHOLDS
+    least = max(limits.min_temperature_variance, limits.min_temperature_share * shape)
+    along = span >= limits.min_temperature_span and correlation**2 >= least
+    every = (_fit_temperature_slope(other, joint, 0.5 * span) for other in others)
+    slopes = [slope for slope in every if slope is not None]
     shared = None
     if along and len(slopes) >= FLEET_THRESHOLDS.min_warmed_machines:
         change = float(np.polyfit(degrees, values, 1)[0])
@@ -676,9 +631,8 @@ def compare_temperature(
 def _fit_temperature_slope(machine: Machine, joint: str | None, least: float) -> float | None:
     """Change a kelvin of a machine that warms so much."""
     degrees = _collect_temperatures(machine[0], joint)
-    if degrees is None or float(np.ptp(degrees)) < max(
-        least, FLEET_THRESHOLDS.min_temperature_span
-    ):
+    least = max(least, FLEET_THRESHOLDS.min_temperature_span)
+    if degrees is None or float(np.ptp(degrees)) < least:
         return None
     return float(np.polyfit(degrees, machine[1], 1)[0])
 

@@ -82,10 +82,8 @@ def estimate_scatters(groups: Sequence[Sequence[PeriodSeries]]) -> list[Scatter]
     Args:
         groups: the series of all machines, quantity by quantity.
     """
-    changes = [
-        np.concatenate([np.zeros(0), *(entry.standardised_changes for entry in group)])
-        for group in groups
-    ]
+    each = ([series.standardised_changes for series in group] for group in groups)
+    changes = [np.concatenate([np.zeros(0), *parts]) for parts in each]
     degrees = np.array([FLEET_THRESHOLDS.degrees_per_change * len(entry) for entry in changes])
     squares = np.array([_estimate_trimmed_variance(entry) for entry in changes])
     usual, prior = _estimate_typical_variance(squares[squares > 0.0], degrees[squares > 0.0])
@@ -95,9 +93,8 @@ def estimate_scatters(groups: Sequence[Sequence[PeriodSeries]]) -> list[Scatter]
         extra = max(0.0, variance - 1.0)
         sigmas = np.concatenate([np.zeros(0), *(series.sigmas for series in group)])
         size = float(np.sqrt(np.median(sigmas**2))) if sigmas.size else 0.0
-        scatters.append(
-            Scatter(np.sqrt(extra) * size, max(1.0, entry + prior), np.sqrt(1.0 + extra))
-        )
+        known = max(1.0, entry + prior)
+        scatters.append(Scatter(np.sqrt(extra) * size, known, np.sqrt(1.0 + extra)))
     return scatters
 
 
@@ -349,12 +346,9 @@ def find_outlying_machines(
     others = [k for k in np.flatnonzero(np.isfinite(values)) if k not in taken[:last]]
     middle, spread = float(np.median(values[others])), float(np.std(values[others], ddof=1))
     beyond = compute_quantile(1e9, chance / count)
-    return tuple(
-        Outlier(int(k), difference, spread, difference / spread)
-        for k in taken[:last]
-        for difference in [float(values[k]) - middle]
-        if abs(difference) > beyond * sigmas[k]
-    )
+    differences = [(int(k), float(values[k]) - middle) for k in taken[:last]]
+    large = [(k, x) for k, x in differences if abs(x) > beyond * sigmas[k]]
+    return tuple(Outlier(k, x, spread, x / spread) for k, x in large)
 
 
 @dataclass(frozen=True, eq=False)
@@ -392,11 +386,8 @@ class QuantityTests:
 
     def can_report(self, m: int, i: int) -> bool:
         """Tells whether a quantity counts: no load in a machine that gains describe better."""
-        return (
-            self.loaded_machines is None
-            or self.quantities[i].effect != LOAD
-            or m in self.loaded_machines
-        )
+        loaded = self.loaded_machines
+        return loaded is None or self.quantities[i].effect != LOAD or m in loaded
 
     def find_logs(self, m: int, i: int) -> np.ndarray:
         """Finds the indices of the logs of a machine that determine a quantity."""
@@ -405,17 +396,14 @@ class QuantityTests:
     def get_series(self, m: int, i: int) -> PeriodSeries:
         """Returns a quantity of a machine."""
         log_indices = self.find_logs(m, i)
-        return PeriodSeries(
-            self.at[log_indices], self.values[log_indices, i], self.sigmas[log_indices, i]
-        )
+        values, sigmas = self.values[log_indices, i], self.sigmas[log_indices, i]
+        return PeriodSeries(self.at[log_indices], values, sigmas)
 
     def find_smallest_drift(self, i: int) -> float | None:
         """Finds the smallest straight drift that the best observed machine would show."""
-        limits = [
-            compute_smallest_detectable(series, self.scatters[i], self.significance_level)
-            for m in range(self.machine_count)
-            if len((series := self.get_series(m, i)).at) > 1
-        ]
+        every = [self.get_series(m, i) for m in range(self.machine_count)]
+        known, level = self.scatters[i], self.significance_level
+        limits = [compute_smallest_detectable(s, known, level) for s in every if len(s.at) > 1]
         return min(limits, default=None)
 
     @property
@@ -461,10 +449,8 @@ def _collect_arrays(layout: FleetLayout, fit: FleetFit) -> tuple[np.ndarray, np.
 
 
 def _estimate_scatters(tests: QuantityTests) -> tuple[Scatter, ...]:
-    groups = [
-        [tests.get_series(m, i) for m in range(tests.machine_count)]
-        for i in range(len(tests.quantities))
-    ]
+    machines, columns = range(tests.machine_count), range(len(tests.quantities))
+    groups = [[tests.get_series(m, i) for m in machines] for i in columns]
     return tuple(estimate_scatters(groups))
 
 
@@ -487,9 +473,8 @@ def _apply_loads(tests: QuantityTests, layout: FleetLayout, fit: FleetFit) -> Qu
             values[k, :first] = fit.load_fits[k].values[:first]
             sigmas[k, :first] = fit.load_fits[k].sigmas[:first]
         values[log_indices, first:load] = np.nan
-    return dataclasses.replace(
-        tests, values=values, sigmas=sigmas, loaded_machines=frozenset(loaded)
-    )
+    machines = frozenset(loaded)
+    return dataclasses.replace(tests, values=values, sigmas=sigmas, loaded_machines=machines)
 
 
 def _detect_drifts(tests: QuantityTests, places: Sequence[int]) -> QuantityTests:
@@ -505,9 +490,8 @@ def _detect_drifts(tests: QuantityTests, places: Sequence[int]) -> QuantityTests
                 count = tests.machine_count * families
                 moves[m, i] = dataclasses.replace(move, chance=min(1.0, move.chance * count))
         means, spreads = _compute_means(tests, moves, i)
-        for each in find_outlying_machines(
-            means, spreads, 0.5 * FLEET_THRESHOLDS.false_alarm / families
-        ):
+        chance = 0.5 * FLEET_THRESHOLDS.false_alarm / families
+        for each in find_outlying_machines(means, spreads, chance):
             if tests.can_report(each.machine, i):
                 outliers[each.machine, i] = each
     return dataclasses.replace(tests, drifts=moves, outliers=outliers, scores=scores)
@@ -541,11 +525,9 @@ def _remove_gains(tests: QuantityTests) -> QuantityTests:
 
 def _compute_gain_scales(tests: QuantityTests) -> dict[tuple[int, int], np.ndarray]:
     """(periods,) 1 + gain / 100 of each gain that drifts or is apart."""
-    scales = {
-        key: 1.0 + compute_line(move, tests.get_series(*key).at) / 100.0
-        for key, move in tests.drifts.items()
-        if tests.quantities[key[1]].effect == GAIN
-    }
+    gains = [key for key in tests.drifts if tests.quantities[key[1]].effect == GAIN]
+    lines = {key: compute_line(tests.drifts[key], tests.get_series(*key).at) for key in gains}
+    scales = {key: 1.0 + line / 100.0 for key, line in lines.items()}
     for key, outlier in tests.outliers.items():
         if tests.quantities[key[1]].effect == GAIN:
             scales[key] = np.full(len(tests.find_logs(*key)), 1.0 + outlier.difference / 100.0)

@@ -142,7 +142,7 @@ def arrange_logs(log_names: Iterable[LogName]) -> tuple[LogName, ...]:
         DataError: two logs of one machine and period.
     """
     ordered = sorted(
-        log_names, key=lambda log: (make_natural_key(log.machine), make_natural_key(log.period))
+        log_names, key=lambda log: list(map(make_natural_key, (log.machine, log.period)))
     )
     for one, other in itertools.pairwise(ordered):
         if (one.machine, one.period) == (other.machine, other.period):
@@ -156,11 +156,8 @@ def arrange_logs(log_names: Iterable[LogName]) -> tuple[LogName, ...]:
 
 def make_natural_key(text: str) -> list[tuple[int, int, str]]:
     """Makes a key that sorts day2 before day10."""
-    return [
-        (0, int(part), part) if part.isdecimal() else (1, 0, part)
-        for part in re.split(r"(\d+)", text)
-        if part
-    ]
+    parts = filter(None, re.split(r"(\d+)", text))
+    return [(0, int(part), part) if part.isdecimal() else (1, 0, part) for part in parts]
 
 
 def _build_expression(pattern: str) -> str:
@@ -208,16 +205,12 @@ def read_log_list(path: Path) -> tuple[LogName, ...]:
         ) from None
     except UnicodeDecodeError:
         raise DataError(f"{path}: no text; expected a list of logs, .csv or .toml") from None
-    rows = (
-        _read_toml_rows(path, text)
-        if path.suffix.lower() == ".toml"
-        else _read_csv_rows(path, text)
-    )
+    read_rows = _read_toml_rows if path.suffix.lower() == ".toml" else _read_csv_rows
+    rows = read_rows(path, text)
     if not rows:
         raise DataError(f"{path}: no logs in it; expected rows of machine, period, log")
-    return arrange_logs(
-        LogName(machine, period, str(path.parent / log)) for machine, period, log in rows
-    )
+    places = ((machine, period, str(path.parent / log)) for machine, period, log in rows)
+    return arrange_logs(LogName(*row) for row in places)
 
 
 def _read_csv_rows(path: Path, text: str) -> list[tuple[str, ...]]:
@@ -378,9 +371,8 @@ def _compute_repeats(
         is_of_joint = joint == j
         if is_of_joint.any():
             r = estimate_correlation(observation, residual[is_of_joint], sample[is_of_joint])
-            repeats[j] = sum_lagged_products(
-                W[is_of_joint], r, sample[is_of_joint], observation.segment
-            )
+            samples = sample[is_of_joint]
+            repeats[j] = sum_lagged_products(W[is_of_joint], r, samples, observation.segment)
     return repeats
 
 
@@ -508,23 +500,11 @@ def build_layout(spec: ModuleSpec) -> FleetLayout:
         common[column] = False
         whose = standard[base.column_of]
         place = joints.get(whose.joint, -1)
-        drifting.append(
-            Quantity(
-                whose.effect,
-                whose.joint,
-                base.name,
-                base.unit,
-                column,
-                place,
-                is_of_joint=base.rows == (place,),
-            )
-        )
+        alone, names = base.rows == (place,), (whose.effect, whose.joint, base.name, base.unit)
+        drifting.append(Quantity(*names, column, place, is_of_joint=alone))
     if common.any():
-        drifting += [
-            Quantity(GAIN, joint.name, f"gain {joint.name}", "%", -1, j)
-            for j, joint in enumerate(spec.joints)
-            if joint.actuated
-        ]
+        motors = [(j, joint.name) for j, joint in enumerate(spec.joints) if joint.actuated]
+        drifting += [Quantity(GAIN, name, f"gain {name}", "%", -1, j) for j, name in motors]
     return FleetLayout(tuple(drifting), common, _build_load_columns(spec))
 
 
@@ -535,13 +515,8 @@ def _build_load_columns(spec: ModuleSpec) -> np.ndarray:
     columns: list[np.ndarray] = []
     basis = np.zeros((len(spec.base), 0))
     for letters in _LOAD_ORDER:
-        column = np.array(
-            [
-                sum(term.value for term in base.terms if term.parameter == f"{letters}{link}")
-                for base in spec.base
-            ],
-            dtype=float,
-        )
+        terms = ([t.value for t in b.terms if t.parameter == f"{letters}{link}"] for b in spec.base)
+        column = np.array([sum(values) for values in terms], dtype=float)
         length = float(np.linalg.norm(column))
         if length == 0.0 and letters == "M":
             break
@@ -649,12 +624,10 @@ Blocks = Sequence[np.ndarray]
 def _build_gain_blocks(layout: FleetLayout, theta: np.ndarray, joints: int) -> Blocks:
     """Friction, offset and gains."""
     unit_columns, nothing = _build_unit_columns(layout), np.zeros(len(theta))
-    return [
-        np.column_stack(
-            [unit_columns, *(theta if place == j else nothing for place in layout.gain_joints)]
-        )
-        for j in range(joints)
-    ]
+    gains = (
+        [theta if place == j else nothing for place in layout.gain_joints] for j in range(joints)
+    )
+    return [np.column_stack([unit_columns, *columns]) for columns in gains]
 
 
 def _build_unit_columns(layout: FleetLayout) -> np.ndarray:
@@ -691,10 +664,10 @@ def _solve_log(
     each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blocks
 ) -> tuple[list[int], np.ndarray, np.ndarray, np.ndarray]:
     """Columns that can be told, their values, a root of (Z^T Z)^-1, and (n,) ||r_j||."""
-    parts = [
-        np.column_stack([R[:, :-1] @ block, R[:, -1] - R[:, :-1] @ theta])
-        for R, block in zip(each.data.triangles, blocks, strict=True)
+    pairs = [
+        (R[:, :-1], R[:, -1], block) for R, block in zip(each.data.triangles, blocks, strict=True)
     ]
+    parts = [np.column_stack([W @ block, y - W @ theta]) for W, y, block in pairs]
     whole = compute_triangle(np.vstack([part / s for part, s in zip(parts, sigma, strict=True)]))
     names = [str(i) for i in range(whole.shape[1] - 1)]
     used_columns = list(find_independent_columns(whole[:, :-1], names).kept_columns)
