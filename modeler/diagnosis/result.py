@@ -553,7 +553,7 @@ class Diagnosis(Result):
         return convert_to_plain(
             {
                 **select_attributes(self, "robot verdict effects refinements"),
-                "rivals": [_describe_key(key) | {"gain": gain} for *key, gain in self.rivals],
+                "rivals": [{**_describe_key((e, j)), "gain": gain} for e, j, gain in self.rivals],
                 "blind_spots": list(map(_describe_key, self.blind_spots)),
                 "joints": {n: {"relative_error": self.errors.get(n), **vars(j)} for n, j in joints},
                 **select_attributes(self, "unmoved held_out sentences band fit_band data changed"),

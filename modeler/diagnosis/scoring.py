@@ -606,8 +606,8 @@ def make_veto(other: SearchData | None) -> Callable[[State, State, ScoredCandida
 
     def is_vetoed(before: State, after: State, candidate_score: ScoredCandidate) -> bool:
         touched = find_affected_joints(candidate_score, before, after)
-        unseen = [compute_holdout_residuals(state, other) for state in (before, after)]
-        score = compare_residuals(*unseen, touched, before)
+        old, new = (compute_holdout_residuals(state, other) for state in (before, after))
+        score = compare_residuals(old, new, touched, before)
         expected = candidate_score.variance_reduction
         if not candidate_score.is_local:  # what is gone of the squared residuals of these joints
             first, last = (

@@ -512,8 +512,8 @@ def choose_harmonics(bounds: MotionBounds, duration: float) -> int:
 def compute_quality(task: ExcitationTask, x: np.ndarray) -> MotionQuality:
     """Computes the quality of a motion."""
     W = task.compute_rows(task.series.evaluate_motion(x))
-    conditions = [compute_condition(W, scaled) for scaled in (True, False)]
-    return MotionQuality(*conditions, compute_log_det(W))
+    scaled, raw = (compute_condition(W, scaled) for scaled in (True, False))
+    return MotionQuality(scaled, raw, compute_log_det(W))
 
 
 def refine_task(task: ExcitationTask) -> ExcitationTask:
@@ -531,10 +531,11 @@ def compute_usage(task: ExcitationTask, x: np.ndarray) -> LimitUsage:
         s = fine.columns.read_signals((q, qd, qdd), fine.series.time)
         loads = np.abs(fine.columns.evaluate_exact(q, qd, qdd, s) @ task.beta).max(axis=0)
     posture = fine.posture.compute_shares(q)
-    largest, kinds = [np.abs(x).max(axis=0) for x in (qd, qdd)], len(fine.posture.kinds)
+    speed, acceleration = (np.abs(x).max(axis=0) for x in (qd, qdd))
+    kinds, low, high = len(fine.posture.kinds), q.min(axis=0), q.max(axis=0)
     share = float(np.abs(posture).max()) if posture.size else None
     loops = float(posture[:, :kinds].max()) if kinds else None
-    return LimitUsage(q.min(axis=0), q.max(axis=0), *largest, loads, share, loops)
+    return LimitUsage(low, high, speed, acceleration, loads, share, loops)
 
 
 def draw_random_motion(task: ExcitationTask, rng: np.random.Generator) -> np.ndarray:
