@@ -141,10 +141,11 @@ def _check_chatter(state: State) -> list[str]:
     if not joint_ratios:
         return []
     cutoff = state.data.observation.report.processing.position_cutoff
+    names, most = ", ".join(joint_ratios), max(joint_ratios.values())
     return [
-        f"joint{'s' if len(joint_ratios) > 1 else ''} {', '.join(joint_ratios)}: the model's "
-        f"torque trembles up to {max(joint_ratios.values()):.0f} times as much as the measured "
-        f"one: noise of the positions; fit again with a --cutoff below {cutoff:.3g} Hz"
+        f"joint{'s' * (len(joint_ratios) > 1)} {names}: the predicted torque has up to "
+        f"{most:.0f} times the high-frequency content of the measured one: position noise; fit "
+        f"again with a --cutoff below {cutoff:.3g} Hz"
     ]
 
 
@@ -288,7 +289,7 @@ NOT_JUDGED = "the machine differs between the training and the held-out logs"
 
 
 _ONLY_HERE = "of these logs' error, but that of motion left out does not surely fall with it"
-_PART = "it explains only part of what is systematic"
+_PART = "it explains only a part of the systematic residual"
 
 _ONLY_TIMING = (
     "of the error, but so do errors of timing: it is not seen once encoder noise is smoothed out "
@@ -439,7 +440,7 @@ def _write_headline(diagnosis: Diagnosis) -> str:
         return "cannot tell: too few rows; record longer motions of all joints"
     if diagnosis.refinements:
         return "nothing to add: a law that the model has can be refined"
-    return "nothing to add: no effect of the catalogue surely lowers the error by more than 3 %"
+    return "nothing to add: no effect of the catalogue lowers the held-out error significantly"
 
 
 def format_equivalents(finding: Finding) -> str:

@@ -380,7 +380,7 @@ class EquationProposal(ShortRepr):
             f"  {self.differs}",
         ]
         if self.apart:
-            lines += [f"  told from the next by: {self.apart}", f"  {self.where}"]
+            lines += [f"  discriminating motion: {self.apart}", f"  {self.where}"]
         return lines
 
     def format_lines(self) -> list[str]:
