@@ -568,15 +568,15 @@ def find_exceeded_limits(
         details = float(time[i]), float(q[i, j]), float(limit), units[j]
         excesses.append(LimitExcess(bounds.joints[j], "position", *details))
     speed, acceleration = bounds.speed, bounds.acceleration
-    digits = digit / (k * step), 2.0 * digit / (k * step) ** 2
-    check_limit("speed", time[k:], v, speed, "/s", digits[0])
-    check_limit("acceleration", time[k:-k], a, acceleration, "/s2", digits[1])
+    slacks = digit / (k * step), 2.0 * digit / (k * step) ** 2
+    check_limit("speed", time[k:], v, speed, "/s", slacks[0])
+    check_limit("acceleration", time[k:-k], a, acceleration, "/s2", slacks[1])
     if stated is not None:
         change = np.diff(stated[0], axis=0) / np.diff(time)[:, None]
         check_limit("speed", time, stated[0], speed, "/s", 0.0)
         check_limit("acceleration", time, stated[1], acceleration, "/s2", 0.0)
         check_limit("acceleration", time[1:], change, acceleration, "/s2", digit / step)
     for end, at, value in (("start", time[:1], v[:1]), ("end", time[-1:], v[-1:])):
-        check_limit(f"speed at the {end}", at, value, acceleration * k * step, "/s", digits[0])
+        check_limit(f"speed at the {end}", at, value, acceleration * k * step, "/s", slacks[0])
     first = {(each.joint, each.what): each for each in reversed(excesses)}
     return sorted(first.values(), key=lambda each: each.time)

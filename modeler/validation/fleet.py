@@ -555,8 +555,8 @@ def describe_undetectable_drifts(tests: QuantityTests, logs: Sequence[LogSummary
                 continue
             times = sigmas[m, i] / float(np.median(others))
             if times > FLEET_THRESHOLDS.max_sigma_ratio:
-                count = f"{times:.2g} times" if np.isfinite(times) else "not at all"
-                hidden.append(f"{quantity.parameter} ({count})")
+                worse = f"{times:.2g} times" if np.isfinite(times) else "not at all"
+                hidden.append(f"{quantity.parameter} ({worse})")
         if hidden:
             sentences.append(
                 f"machine {name}: its logs tell {', '.join(hidden)} far worse than those of the "
