@@ -90,8 +90,8 @@ def _rebuild_candidate(model: IdentifiedModel, step: Addition) -> Candidate | No
     effect = find_effect(step.effect, read_catalogue(model))
     if effect is None or effect.acts is not EffectTarget.JOINT or not step.shapes:
         return None
-    names = [({shape.name for shape in f.nonlinear_parameters}, f) for f in effect.forms]
-    forms = [form for shapes, form in names if shapes == set(step.shapes)]
+    choices = [({shape.name for shape in f.nonlinear_parameters}, f) for f in effect.forms]
+    forms = [form for shapes, form in choices if shapes == set(step.shapes)]
     names = [joint.name for joint in model.spec.joints]
     if not forms or step.joint not in names:
         return None
@@ -170,8 +170,8 @@ def insert_candidate(
         return text
     if effect.acts is EffectTarget.MOTOR:
         text = _insert_coupling(text, pick, reference)
-    values = _collect_nonlinear_parameters(pick, reference)
-    changed = insert_effect(text, effect.id, pick.joint, values)
+    parameters = _collect_nonlinear_parameters(pick, reference)
+    changed = insert_effect(text, effect.id, pick.joint, parameters)
     names = frozenset().union(*(form.names for form in effect.forms))
     depends = not names.isdisjoint({"load", "static", "torque"})
     depends = depends or effect.acts is EffectTarget.POSITION

@@ -704,8 +704,8 @@ def _add_discriminating_motions(
     pairs = [(p.finding.pick, s) for p, s in zip(proposals, states, strict=True)]
     torques = [_build_joint_columns(s, p.candidate) @ p.values for p, s in pairs if p is not None]
     rows, joint, results = states[0].rows, states[0].spec.joints[j], list[EquationProposal]()
-    motion = [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]]) for s in rows.signals]
-    motion = rows.filter_samples(j, motion)
+    signals = [np.column_stack([s.q[:, j], s.v[:, j], s.load[:, j]]) for s in rows.signals]
+    motion = rows.filter_samples(j, signals)
     unit, effort = joint.unit, joint.effort_unit
     for k, proposal in enumerate(proposals):
         other = (k + 1) % len(proposals)

@@ -459,8 +459,8 @@ class _SplineProblem:
         after = np.zeros(base.block_count)
         before = np.zeros(base.block_count)
         fits = [self.solve(f, smooth, rising) for f in range(len(self.parts))]
-        rows = zip(base.whitened_columns, base.y, base.block, base.out_of_fold, strict=True)
-        for k, (X, y, block, left) in enumerate(rows):
+        data = zip(base.whitened_columns, base.y, base.block, base.out_of_fold, strict=True)
+        for k, (X, y, block, left) in enumerate(data):
             e = left.copy()
             for f, fold_fit in enumerate(fits):
                 if fold_fit is None:

@@ -236,8 +236,8 @@ def compute_profile(
     if first is None or not (smooth or fixed):
         return None
     points: list[ProfilePoint] = []
-    for values in itertools.product(*fixed.values()):
-        chosen = dict(zip(fixed, values, strict=True))
+    for combination in itertools.product(*fixed.values()):
+        chosen = dict(zip(fixed, combination, strict=True))
         here = replace(candidate, nonlinear_parameters={**candidate.nonlinear_parameters, **chosen})
         points += _scan_nonlinear(problem, here, smooth, first.squares)
     points = [p for p in points if _is_possible(candidate, p)] or [first]
