@@ -16,7 +16,7 @@ from benchmarks.excitation import FIVE, with_losses
 from modeler.api import compile_model, derive, generate
 from modeler.api.motion import build_bounds
 from modeler.excitation import CollisionGeometry, ExcitingMotion, MotionRequest, design_motion
-from modeler.excitation.families import FAMILIES
+from modeler.excitation.series import FAMILIES
 from modeler.robot import read_robot
 from modeler.views.robot_skeleton import Skeleton, build_skeleton, compute_poses
 

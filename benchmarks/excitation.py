@@ -27,7 +27,7 @@ from modeler.excitation import (
     design_motion,
     draw_random_motion,
 )
-from modeler.excitation.families import FAMILIES
+from modeler.excitation.series import FAMILIES
 from modeler.robot import Robot, parse_robot_text, read_robot, replace_effects
 
 ROBOTS = ("scara", "ur10e", "tx40", "panda")

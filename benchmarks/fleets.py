@@ -12,8 +12,8 @@ from benchmarks.line import Key, Line, Missing
 from modeler.api import compile_model, derive, generate, load, simulate
 from modeler.api.fleets import reduce_logs
 from modeler.core.jobs import Cluster, Workers, ignore_progress
-from modeler.fleet import analyse_fleet, name_logs
 from modeler.simulation import write_log
+from modeler.validation import analyse_fleet, name_logs
 
 ROBOT = "panda"
 LOGS, _FEW, _SECONDS, _TIMES = 16, 4, 40.0, 2

@@ -6,7 +6,7 @@ import inspect
 
 STAGES = (
     "robot", "derivation", "formulas", "codegen", "runtime", "regression", "estimation",
-    "validation", "diagnosis", "fleet", "simulation", "papers",
+    "validation", "diagnosis", "simulation", "papers",
 )  # fmt: skip
 """Stages with pages of their own, in the order of the data; `modeler.api` comes before them."""
 

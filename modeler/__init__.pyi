@@ -50,12 +50,15 @@ from modeler.estimation import (
     IdentifiedModel as IdentifiedModel,
     Payload as Payload,
 )
-from modeler.fleet import Fleet as Fleet
 from modeler.formats import Exported as Exported, convert as convert
 from modeler.regression import Log as Log, Observation as Observation, Processing as Processing
 from modeler.robot import Robot as Robot, new_robot as new_robot
 from modeler.runtime import CompiledModel as CompiledModel, GpuModel as GpuModel
-from modeler.validation import Comparison as Comparison, FreeRunSettings as FreeRunSettings
+from modeler.validation import (
+    Comparison as Comparison,
+    Fleet as Fleet,
+    FreeRunSettings as FreeRunSettings,
+)
 from modeler.views import show as show
 
 from .api import (

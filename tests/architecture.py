@@ -8,7 +8,7 @@ from pathlib import Path
 
 NORTH = ("effects", "robot", "derivation", "formulas", "codegen")
 SOUTH = (
-    "numerics", "runtime", "logs", "regression", "estimation", "diagnosis", "validation", "fleet",
+    "numerics", "runtime", "logs", "regression", "estimation", "diagnosis", "validation",
     "excitation",
 )  # fmt: skip
 
@@ -22,7 +22,7 @@ STAGES: dict[str, set[str]] = {
     **{stage: {"core", *SOUTH[:i]} for i, stage in enumerate(SOUTH)},
     "logs": {"core", "numerics"},
     "diagnosis": {"core", "effects", *SOUTH[: SOUTH.index("diagnosis")]},
-    "fleet": {"core", "effects", *SOUTH[: SOUTH.index("fleet")]},
+    "validation": {"core", "effects", *SOUTH[: SOUTH.index("validation")]},
     "excitation": {"core", "effects", "numerics", "runtime", "regression", "diagnosis"},
     "simulation": {"core", "numerics", "robot"},
     "formats": {"core", "effects", "robot", "numerics", "runtime", "regression", "estimation"},
@@ -51,7 +51,6 @@ PACKAGES: dict[str, set[str]] = {
     "estimation": {"numpy", "scipy"},
     "diagnosis": {"numpy", "scipy", "threadpoolctl"},
     "validation": {"numpy", "scipy"},
-    "fleet": {"numpy", "scipy"},
     "excitation": {"numpy", "scipy", "matplotlib", "pyarrow"},
     "simulation": {"numpy", "scipy", "pyarrow", "casadi"},
     "formats": {"numpy", "scipy", "mujoco"},
@@ -81,7 +80,7 @@ ONLY_IN = {
 }
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
-MOST_PACKAGES = 22  # the workbench in the browser
+MOST_PACKAGES = 21  # the workbench in the browser
 MOST_MODULES = 438  # every element of a file by a table, repairs that fits confirm, stamps, MCAP
 MOST_CODE_LINES = 80_300  # names of the field are longer; being shortened package by package
 MOST_CIRCLES = 0

@@ -29,9 +29,8 @@ from modeler.runtime import build_portable_library
 if TYPE_CHECKING:
     from modeler.diagnosis import Diagnosis
     from modeler.estimation import MethodComparison
-    from modeler.fleet import Fleet
     from modeler.logs import LogInspection
-    from modeler.validation import Comparison, ModelComparison
+    from modeler.validation import Comparison, Fleet, ModelComparison
 
     Reported = (
         Robot

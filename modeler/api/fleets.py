@@ -10,7 +10,10 @@ from modeler.codegen import derive, generate
 from modeler.core.errors import DataError, LoopError, split_time_range
 from modeler.core.jobs import Workers, ignore_progress, open_workers
 from modeler.core.manifest import EmittedModule
-from modeler.fleet import (
+from modeler.regression import Processing
+from modeler.robot import Robot
+from modeler.runtime import CompiledModel
+from modeler.validation import (
     Fleet,
     LogJob,
     LogName,
@@ -22,9 +25,6 @@ from modeler.fleet import (
     reduce_log,
     summarise_log,
 )
-from modeler.regression import Processing
-from modeler.robot import Robot
-from modeler.runtime import CompiledModel
 
 Progress = Callable[[float], None]
 

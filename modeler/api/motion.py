@@ -94,7 +94,10 @@ def find_nearest_along(
     """Finds the two nearest links along a motion; None without pairs to check."""
     if not len(clearance.solids.pairs):
         return None
-    curve, samples = simulation.build_curve(motion), max(excitation.SAMPLES, 2 * len(motion.time))
+    curve, samples = (
+        simulation.build_curve(motion),
+        max(excitation.THRESHOLDS.clearance_samples, 2 * len(motion.time)),
+    )
     return excitation.find_closest_approach(
         compiled, clearance.solids, curve, float(motion.time[-1]), samples
     )

@@ -20,8 +20,8 @@ from modeler.cli.places import LOG_ENDINGS
 from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.errors import DataError
 from modeler.core.jobs import open_workers
-from modeler.fleet import LogName, analyse_fleet, format_fleet, name_logs, read_log_list
 from modeler.regression import Processing
+from modeler.validation import LogName, analyse_fleet, format_fleet, name_logs, read_log_list
 from modeler.views import build_fleet_page
 
 

@@ -14,17 +14,15 @@ from .candidates import (
     Candidate as Candidate,
     JointScale as JointScale,
     StatedEffects as StatedEffects,
+    evaluate_columns as evaluate_columns,
     expand_grid as expand_grid,
 )
 from .diagnosis import diagnose as diagnose
-from .effect_columns import evaluate_columns as evaluate_columns
-from .events import (
-    AFTER as AFTER,
-    MARGIN as MARGIN,
-    PushWindow as PushWindow,
-    find_load_reversals as find_load_reversals,
+from .events import find_load_reversals as find_load_reversals
+from .generation import (
+    compute_joint_order_spectrum as compute_joint_order_spectrum,
+    fit_residual_baseline as fit_residual_baseline,
 )
-from .judge import ScoredCandidate as ScoredCandidate
 from .learn import (
     ANY_LAW as ANY_LAW,
     LEARNED as LEARNED,
@@ -32,14 +30,7 @@ from .learn import (
     LearnedLaw as LearnedLaw,
     learn_law as learn_law,
 )
-from .orders import (
-    compute_joint_order_spectrum as compute_joint_order_spectrum,
-    fit_residual_baseline as fit_residual_baseline,
-)
-from .ranking import GramBlocks as GramBlocks
-from .result import Diagnosis as Diagnosis, Finding as Finding
-from .search import Search as Search, SearchStep as SearchStep
-from .sentences import (
+from .messages import (
     describe_equivalents as describe_equivalents,
     describe_undetectable as describe_undetectable,
     format_equivalents as format_equivalents,
@@ -47,6 +38,10 @@ from .sentences import (
     format_location as format_location,
     format_unit as format_unit,
 )
+from .ranking import GramBlocks as GramBlocks
+from .result import Diagnosis as Diagnosis, Finding as Finding, PushWindow as PushWindow
+from .scoring import ScoredCandidate as ScoredCandidate
+from .search import Search as Search, SearchStep as SearchStep
 from .signals import SignalReference as SignalReference, Signals as Signals
 from .state import (
     State as State,
@@ -54,3 +49,4 @@ from .state import (
     build_columns as build_columns,
     build_state as build_state,
 )
+from .thresholds import THRESHOLDS as THRESHOLDS

@@ -1,9 +1,8 @@
 """One effect more: described, derived, emitted, fitted, and judged on other motion."""
 
-import dataclasses
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -12,6 +11,7 @@ from modeler.codegen import derive, generate
 from modeler.core.errors import DataError, RobotError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import format_percent
+from modeler.diagnosis import scoring
 from modeler.diagnosis.added_model import (
     LogRows,
     LogSplit,
@@ -24,34 +24,31 @@ from modeler.diagnosis.added_model import (
     is_unneeded,
     read_catalogue,
 )
-from modeler.diagnosis.candidates import Candidate, StatedEffects, find_passive_joints, list_links
+from modeler.diagnosis.candidates import (
+    Candidate,
+    StatedEffects,
+    find_passive_joints,
+    list_body_parameters,
+    list_links,
+)
 from modeler.diagnosis.diagnosis import find_fixed_parameters
-from modeler.diagnosis.drive_gains import compute_gain_visibility, is_gain
-from modeler.diagnosis.effect_columns import list_body_parameters
+from modeler.diagnosis.generation import estimate_instrumental
 from modeler.diagnosis.learn import ANY_LAW, LawRequest, LearnedLaw, learn_law
-from modeler.diagnosis.plausible import find_caveat
-from modeler.diagnosis.profile import describe_values
+from modeler.diagnosis.messages import format_location
+from modeler.diagnosis.plausibility import compute_gain_visibility, find_caveat, is_gain
+from modeler.diagnosis.profile import name_parameters
 from modeler.diagnosis.result import (
-    HIDDEN,
     JOINTED,
     FittedCandidate,
     explain_exclusion,
     explain_weak_evidence,
 )
-from modeler.diagnosis.score import (
-    Residuals,
-    Score,
-    compute_errors,
-    compute_rms_error,
-    explain_no_improvement,
-    score_change,
-)
 from modeler.diagnosis.search import extend_state, scan_candidates, scan_catalogue
-from modeler.diagnosis.sentences import format_location
 from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state
-from modeler.diagnosis.timing import estimate_instrumental
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, EffectTarget, find_effect
 from modeler.estimation import Addition, IdentifiedModel, collect_provenance, identify, judge_fit
+from modeler.regression import Observation
 from modeler.robot import join_names, parse_robot_text, suggest_name
 from modeler.runtime import CompiledModel, load_module
 
@@ -63,18 +60,17 @@ if TYPE_CHECKING:
 
 
 def is_speed_effect(effect: Effect) -> bool:
-    """True for effects of a joint that read its speed and have no shapes."""
+    """Tells whether an effect of a joint depends on its speed alone."""
     form = effect.forms[0]
-    return (
-        effect.acts is EffectTarget.JOINT and not form.nonlinear_parameters and form.names <= {"v"}
-    )
+    pure = not form.nonlinear_parameters and form.names <= {"v"}
+    return pure and effect.acts is EffectTarget.JOINT
 
 
 # What `add` is asked for, checked before any log is looked at.
 
 
 def resolve_effect(model: IdentifiedModel, name: str, joint: str | None) -> Effect:
-    """The effect of that name, if it can go into the model on that joint.
+    """Returns the effect of that name, if it can go into the model on that joint.
 
     Args:
         model: as it is.
@@ -88,10 +84,10 @@ def resolve_effect(model: IdentifiedModel, name: str, joint: str | None) -> Effe
     catalogue = read_catalogue(model)
     effect = find_effect(name, catalogue)
     if effect is None:
+        near = suggest_name(name, [known.id for known in catalogue])
         raise DataError(
-            f"{name}: no such effect{suggest_name(name, [known.id for known in catalogue])}; "
-            "`modeler "
-            "effects` lists them, with --robot FILE those of a robot file too"
+            f"{name}: no such effect{near}; "
+            "`modeler effects` lists them, with --robot FILE those of a robot file too"
         )
     if why := explain_exclusion(effect, model.spec):
         raise DataError(f"{effect.id}: cannot be added ({why})")
@@ -116,11 +112,9 @@ def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
             f"--joint {joint}: {effect.id} acts on the whole robot, not on one joint; leave "
             "--joint out"
         )
-    usual = [joint_spec.name for joint_spec in spec.joints if joint_spec.actuated]
-    usual += passive if is_speed_effect(effect) else []
-    names = {EffectTarget.LINK: list_links(spec), EffectTarget.PASSIVE: passive}.get(
-        effect.acts, usual
-    )
+    names = _list_motors(spec) + (passive if is_speed_effect(effect) else [])
+    if effect.acts in (EffectTarget.LINK, EffectTarget.PASSIVE):
+        names = list_links(spec) if effect.acts is EffectTarget.LINK else passive
     if joint not in names and joint in passive and jointed:
         raise DataError(
             f"--joint {joint}: it has no motor, and there {effect.id} cannot be found from logs; "
@@ -131,9 +125,12 @@ def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
     if read := effect.forms[0].find_references_to(joint):
         raise DataError(
             f"--joint {joint}: {effect.id} reads {join_names(read)} of it as of another joint; "
-            "name "
-            "another, or leave --joint out"
+            "name another, or leave --joint out"
         )
+
+
+def _list_motors(spec: ModuleSpec) -> list[str]:
+    return [joint.name for joint in spec.joints if joint.actuated]
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,23 +147,32 @@ class _FittedModel:
     rows: LogRows
     free: np.ndarray | None = None
 
-    def compute_held_out_residuals(self, refitted: bool) -> Residuals:
-        """What it leaves of held-out logs; where there are none, of its own logs in turn."""
+    def compute_held_out_residuals(self, refitted: bool) -> scoring.Residuals:
+        """Returns residuals on held-out logs; without any, cross-validated ones of its own logs."""
         if not self.rows.logs.held_out and (refitted or self.free is not None):
             return cross_validate_residuals(self.model, self.rows.fit_observation, self.free)
         return compute_residuals(self.model, self.rows.compiled, self.rows.observations[-1])
 
+    def analyse(self) -> Observation:
+        """Analyses the training logs, in the band of a diagnosis."""
+        logs, first = self.rows.logs.training, self.rows.prepared[0]
+        return analyse_logs(self.rows.compiled, logs, self.model.processing, prepared=first)
+
     def replace_history(self, steps: tuple[Addition, ...]) -> "_FittedModel":
-        """The same model by these steps."""
-        model = dataclasses.replace(self.model, history=steps)
-        return dataclasses.replace(self, model=model)
+        """Returns the same model with this history."""
+        return replace(self, model=replace(self.model, history=steps))
+
+    def complete_step(self, **notes: Any) -> IdentifiedModel:
+        """Completes the model, with notes on its last step."""
+        *steps, last = self.model.history
+        return _complete_model(self.replace_history((*steps, replace(last, **notes))))
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
 def add_effect(
     model: IdentifiedModel, compiled: CompiledModel, name: str, joint: str | None, logs: LogSplit
 ) -> IdentifiedModel:
-    """The model with one effect more, fitted to the logs.
+    """Adds one effect to the model and fits it to the logs.
 
     Its shapes are those that explain the logs best.
 
@@ -185,18 +191,20 @@ def add_effect(
     before = _FittedModel(model, build_rows(compiled, logs, model.processing))
     pick = _select_candidate(before, effect, joint)
     after, score = _score_addition(before, pick)
-    *steps, last = after.model.history
     moved = _compute_parameter_shifts(model, after.model) if effect.is_learned else {}
-    last = dataclasses.replace(last, moved=moved, doubt=_explain_weak_evidence(pick, score))
-    return _complete_model(after.replace_history((*steps, last)))
+    return after.complete_step(moved=moved, doubt=_explain_weak_evidence(pick, score))
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")
 def add_learned_law(
-    model: IdentifiedModel, compiled: CompiledModel, joint: str | None, logs: LogSplit,
-    request: LawRequest = ANY_LAW, progress: Callable[[float], None] | None = None,
-) -> IdentifiedModel:  # fmt: skip
-    """The model with a learned law more, fitted together with its parameters.
+    model: IdentifiedModel,
+    compiled: CompiledModel,
+    joint: str | None,
+    logs: LogSplit,
+    request: LawRequest = ANY_LAW,
+    progress: Callable[[float], None] | None = None,
+) -> IdentifiedModel:
+    """Adds a learned law to the model and fits both together.
 
     Args:
         model: as it is.
@@ -209,7 +217,7 @@ def add_learned_law(
     Raises:
         DataError: no such joint or quantity, or no law that lowers the error by more than chance.
     """
-    motors = [entry.name for entry in model.spec.joints if entry.actuated]
+    motors = _list_motors(model.spec)
     if joint is not None and joint not in motors:
         raise DataError(f"--joint {joint}: no such joint; expected one of {join_names(motors)}")
     before = _FittedModel(model, build_rows(compiled, logs, model.processing))
@@ -220,78 +228,62 @@ def add_learned_law(
         laws += [(name, law)] if law is not None and law.is_significant else []
         if progress is not None:
             progress((count + 1) / len(every))
-    place = format_location(joint) if joint is not None else "any joint"
     if not laws:
-        raise DataError(
-            f"learned: nothing is added: no law{request.description} explains more than chance on "
-            f"{place}"
-        )
-    name, law = max(laws, key=lambda pair: float(pair[1].block_reductions.sum()))
+        place = format_location(joint) if joint is not None else "any joint"
+        what = f"no law{request.description} explains more than chance on {place}"
+        raise DataError(f"learned: nothing is added: {what}")
+    name, law = max(laws, key=lambda pair: float(pair[1].reductions.sum()))
     text, pick = insert_law(model.robot_text, state, name, law)
-    named = dataclasses.replace(before, model=dataclasses.replace(model, robot_text=text))
+    named = replace(before, model=replace(model, robot_text=text))
     after, score = _score_addition(named, pick)
     if not score.is_better:
-        raise DataError(
-            f"learned: nothing is added: with a law of {law.coordinates.description} on "
-            f"{format_location(name)} "
-            f"{explain_no_improvement(score.errors, score.changed_joints)}"
-        )
-    *steps, last = after.model.history
+        what = f"a law of {law.coordinates.description} on {format_location(name)}"
+        why = scoring.explain_no_improvement(score.errors, score.changed_joints)
+        raise DataError(f"learned: nothing is added: with {what} {why}")
     moved = _compute_parameter_shifts(model, after.model)
-    far = [f"{entry} by {moved[entry]:.2g}" for entry in moved if moved[entry] > MOVED]
-    doubt = (
-        f"it moves {join_names(far)} of their sigmas: the law says what these said" if far else ""
-    )
-    return _complete_model(
-        after.replace_history((*steps, dataclasses.replace(last, moved=moved, doubt=doubt)))
-    )
+    most = THRESHOLDS.max_parameter_shift
+    far = join_names([f"{name} by {shift:.2g}" for name, shift in moved.items() if shift > most])
+    doubt = f"it moves {far} of their sigmas: the law says what these said" if far else ""
+    return after.complete_step(moved=moved, doubt=doubt)
 
 
 def add_learned_laws(
     model: IdentifiedModel, compiled: CompiledModel, logs: LogSplit
 ) -> tuple[IdentifiedModel, tuple[str, ...]]:
-    """The model with a learned law on every joint where that lowers the error; why not on others.
+    """Adds a learned law on every joint where it lowers the error; says why not on others.
 
     One after the other, each judged beside those that were put in before it.
     """
     left = []
-    for joint in [joint_spec.name for joint_spec in model.spec.joints if joint_spec.actuated]:
+    for joint in _list_motors(model.spec):
         try:
             model = add_learned_law(model, compiled, joint, logs)
         except DataError as error:
-            left.append(
-                f"left out: learned, {format_location(joint)} ({str(error).split(': ', 2)[-1]})"
-            )
+            left.append(_describe_omission("learned", joint, str(error).split(": ", 2)[-1]))
         else:
             compiled = load_module(model.spec, model.sources)
     return model, tuple(left)
 
 
-MOVED = 2.0
-"""Sigmas beyond which a law that is learned changes what a parameter means."""
+def _describe_omission(effect: str, joint: str | None, why: object) -> str:
+    return f"left out: {effect}, {format_location(joint)} ({why})"
 
 
 def _compute_parameter_shifts(before: IdentifiedModel, after: IdentifiedModel) -> dict[str, float]:
     """Of every base parameter of both, how many of its sigmas it moved."""
     now = {p.name: p.value for p in after.fit.parameters}
-    return {
-        p.name: abs(now[p.name] - p.value) / p.sigma
-        for p in before.fit.parameters if p.sigma and p.name in now
-    }  # fmt: skip
+    known = (p for p in before.fit.parameters if p.sigma and p.name in now)
+    return {p.name: abs(now[p.name] - p.value) / p.sigma for p in known if p.sigma}
 
 
-def _explain_weak_evidence(pick: FittedCandidate, score: Score) -> str:
+def _explain_weak_evidence(pick: FittedCandidate, score: scoring.Score) -> str:
     """Why an effect that was asked for is no more than a perhaps; empty if it may be named."""
     candidate, whole = pick.candidate, score.whole
     errors = score.errors.get(candidate.joint or "", (whole.before, whole.after))
     against = ""
     if candidate in pick.state.picks:
-        effect_values = describe_values(
-            pick.state, candidate, pick.values, np.zeros(len(pick.values))
-        )
-        against = find_caveat(
-            pick.state, candidate, effect_values.value | dict(candidate.nonlinear_parameters)
-        )
+        parameters = name_parameters(pick.state, candidate, pick.values)
+        against = find_caveat(pick.state, candidate, parameters)
     return explain_weak_evidence(candidate, errors, against)
 
 
@@ -299,19 +291,18 @@ def _explain_weak_evidence(pick: FittedCandidate, score: Score) -> str:
 def add_findings(
     model: IdentifiedModel, compiled: CompiledModel, findings: Sequence["Finding"], logs: LogSplit
 ) -> tuple[IdentifiedModel, tuple[str, ...]]:
-    """The model with the effects of a diagnosis that lower the error; why others are left out.
+    """Adds the effects of a diagnosis that lower the error; says why others are left out.
 
     What a diagnosis says with a doubt is left out. One after the other; each is judged beside those
     that were put in before it, by `score_change`. Drive gains come first and are judged together
-    where
-    that lowers the error: one of two wrong gains alone may spoil other joints. What has no value
-    above its sigma once everything is in is taken out again. A reason is one line that names the
-    effect and its joint.
+    where that lowers the error: one of two wrong gains alone may spoil other joints. What has no
+    value above its sigma once everything is in is taken out again. A reason is one line that names
+    the effect and its joint.
     """
+    doubted = [f for f in findings if f.doubt]
     left = [
-        f"left out: {f.effect}, {format_location(f.joint)} (perhaps and no more: {f.doubt})"
-        for f in findings if f.doubt
-    ]  # fmt: skip
+        _describe_omission(f.effect, f.joint, f"perhaps and no more: {f.doubt}") for f in doubted
+    ]
     best = _FittedModel(model, build_rows(compiled, logs, model.processing))
     best, rest = _add_drive_gains(best, [f for f in findings if not f.doubt])
     for finding in rest:
@@ -320,13 +311,13 @@ def add_findings(
             assert finding.pick is not None  # `resolve_effect` refuses what is no column
             after, score = _score_addition(best, finding.pick)
         except (DataError, RobotError) as error:
-            left.append(f"left out: {finding.effect}, {format_location(finding.joint)} ({error})")
+            left.append(_describe_omission(finding.effect, finding.joint, error))
             continue
         if score.is_better:
             best = after
         else:
-            why = explain_no_improvement(score.errors, score.changed_joints)
-            left.append(f"left out: {finding.effect}, {format_location(finding.joint)} ({why})")
+            why = scoring.explain_no_improvement(score.errors, score.changed_joints)
+            left.append(_describe_omission(finding.effect, finding.joint, why))
     if best.model is model:
         return model, tuple(left)
     better = _complete_model(best)
@@ -336,10 +327,7 @@ def add_findings(
             needed = [f for f in findings if f is not finding]
             better, others = add_findings(model, compiled, needed, logs)
             why = "with the others in, none of its values is above its sigma"
-            return better, (
-                *others,
-                f"left out: {finding.effect}, {format_location(finding.joint)} ({why})",
-            )
+            return better, (*others, _describe_omission(finding.effect, finding.joint, why))
     return better, tuple(left)
 
 
@@ -357,18 +345,17 @@ def _add_drive_gains(
             after = _score_addition(after, finding.pick)[0]
     except (DataError, RobotError):
         return before, findings
-    if not score_change(
-        before.compute_held_out_residuals(True), after.compute_held_out_residuals(True)
-    ).is_better:
+    first, last = (one.compute_held_out_residuals(True) for one in (before, after))
+    if not scoring.score_change(first, last).is_better:
         return before, findings
     steps = after.model.history
-    done = [dataclasses.replace(step, falls=True) for step in steps[-len(gains) :]]
+    done = [replace(step, falls=True) for step in steps[-len(gains) :]]
     after = after.replace_history((*steps[: -len(gains)], *done))
     return after, [f for f in findings if f not in gains]
 
 
 def remove_last_effect(model: IdentifiedModel, logs: LogSplit) -> IdentifiedModel:
-    """The model without the effect that was added last, fitted again.
+    """Removes the effect that was added last and fits the rest again.
 
     Raises:
         DataError: none was added.
@@ -376,9 +363,10 @@ def remove_last_effect(model: IdentifiedModel, logs: LogSplit) -> IdentifiedMode
     if len(model.history) < 2:
         raise DataError("undo: no effect was added to this model; name one to add")
     before = model.history[-2]
-    processing = dataclasses.replace(model.processing, delay=before.delay)
+    processing = replace(model.processing, delay=before.delay)
+    training = LogSplit(logs.training)
     fitted = _fit_robot_file(
-        model, before.robot_text, lambda made: build_rows(made, LogSplit(logs.training), processing)
+        model, before.robot_text, lambda made: build_rows(made, training, processing)
     )
     return _complete_model(fitted.replace_history(model.history[:-1]))
 
@@ -387,16 +375,12 @@ def _build_state(before: _FittedModel, effect: Effect | None = None) -> State:
     """What the model leaves of the logs, in the band of a diagnosis."""
     model, rows = before.model, before.rows
     robot = parse_robot_text(model.robot_text, "robot of the model")
-    observation = analyse_logs(
-        rows.compiled, rows.logs.training, model.processing, prepared=rows.prepared[0]
-    )
-    fixed_parameters = find_fixed_parameters(model, rows.compiled, rows.logs.training, observation)
-    if effect is not None and effect.acts is EffectTarget.LINK and fixed_parameters is None:
-        fixed_parameters = model.beta
-    data = SearchData(
-        rows.compiled, observation, fixed_parameters, StatedEffects(robot.catalogue, robot.coupling)
-    )
-    return build_state(data, (), model.beta)
+    observation = before.analyse()
+    fixed = find_fixed_parameters(model, rows.compiled, rows.logs.training, observation)
+    if effect is not None and effect.acts is EffectTarget.LINK and fixed is None:
+        fixed = model.beta
+    known = StatedEffects(robot.catalogue, robot.coupling)
+    return build_state(SearchData(rows.compiled, observation, fixed, known), (), model.beta)
 
 
 def _select_candidate(before: _FittedModel, effect: Effect, joint: str | None) -> FittedCandidate:
@@ -405,7 +389,7 @@ def _select_candidate(before: _FittedModel, effect: Effect, joint: str | None) -
     place = find_passive_joints(state.spec).get(joint or "")
     if place is not None and is_speed_effect(effect):
         if state.spec.closure is not None:  # felt by all motors, by the speed that loops give it
-            effect = dataclasses.replace(effect, acts=EffectTarget.PASSIVE)
+            effect = replace(effect, acts=EffectTarget.PASSIVE)
         scan = scan_candidates(state, [Candidate(effect, effect.forms[0], joint, place)])
     else:
         scan = scan_catalogue(state, only=effect.id, joint=joint)
@@ -417,37 +401,36 @@ def _select_candidate(before: _FittedModel, effect: Effect, joint: str | None) -
         )
     candidate, visible = ranked[0].candidate, ranked[0].visible_share
     if effect.acts is EffectTarget.TORQUE:  # least squares make delays too small
-        return FittedCandidate(
-            candidate, estimate_instrumental(state, candidate)[0], state, visible
-        )
+        delay = estimate_instrumental(state, candidate)[0]
+        return FittedCandidate(candidate, delay, state, visible)
     later = extend_state(state, candidate)  # a wrong gain bends the model whose torques it scales
     if is_gain(candidate):
         visible = compute_gain_visibility(later, 0)
     return FittedCandidate(candidate, later.values[0], later, visible)
 
 
-def _score_addition(before: _FittedModel, pick: FittedCandidate) -> tuple[_FittedModel, Score]:
+def _score_addition(
+    before: _FittedModel, pick: FittedCandidate
+) -> tuple[_FittedModel, scoring.Score]:
     """The model with the effect, and whether it is the better one."""
     effect = pick.candidate.effect
-    if pick.visible_share < HIDDEN:  # it would take its values from the model that is there
+    if pick.visible_share < THRESHOLDS.min_addable_share:  # the model would give it its values
         raise DataError(
             f"{effect.id}: cannot be told from what the model has on these logs "
             f"({format_percent(pick.visible_share)} of it is left); {effect.look_alikes}"
         )
     after, refitted = _fit_with_candidate(before, pick), effect.acts is not EffectTarget.LINK
-    score = score_change(
-        before.compute_held_out_residuals(refitted), after.compute_held_out_residuals(refitted)
-    )
+    first, last = (one.compute_held_out_residuals(refitted) for one in (before, after))
+    score = scoring.score_change(first, last)
     if not score.joints:
         raise DataError("no joint has a torque in these logs; expected logs of a robot that moves")
-    history = before.model.history or (
-        _build_history_step(before, {n: a for n, (a, _) in score.errors.items()}),
-    )
-    step = dataclasses.replace(
-        _build_history_step(after, {n: b for n, (_, b) in score.errors.items()}),
+    history = before.model.history or (_build_history_step(before, score, 0),)
+    shapes = dict(pick.candidate.nonlinear_parameters)
+    step = replace(
+        _build_history_step(after, score, 1),
         effect=effect.id,
         joint=pick.candidate.joint,
-        shapes=dict(pick.candidate.nonlinear_parameters),
+        shapes=shapes,
         joints=score.errors,
         changed=score.changed_joints,
         falls=score.is_better,
@@ -455,25 +438,20 @@ def _score_addition(before: _FittedModel, pick: FittedCandidate) -> tuple[_Fitte
     return after.replace_history((*history, step)), score
 
 
-def _build_history_step(fitted: _FittedModel, errors: Mapping[str, float]) -> Addition:
-    """A model as a step of its history.
-
-    Args:
-        fitted: it.
-        errors: relative, by joint, on unseen motion.
-    """
-    training = compute_errors(
-        compute_residuals(fitted.model, fitted.rows.compiled, fitted.rows.fit_observation)
-    )
+def _build_history_step(fitted: _FittedModel, score: scoring.Score, side: int) -> Addition:
+    """A model as a step of its history, with the errors of one side of a score."""
+    model, rows = fitted.model, fitted.rows
+    left = compute_residuals(model, rows.compiled, rows.fit_observation)
+    errors = {name: pair[side] for name, pair in score.errors.items()}
     return Addition(
-        effect="",
-        joint=None,
-        shapes={},
-        error=compute_rms_error(errors.values()),
-        training_error=compute_rms_error(training.values()),
-        held_out=tuple(log.name for log in fitted.rows.logs.held_out),
-        robot_text=fitted.model.robot_text,
-        delay=fitted.model.processing.delay,
+        "",
+        None,
+        {},
+        error=scoring.compute_rms_error(errors.values()),
+        training_error=scoring.compute_rms_error(scoring.compute_errors(left).values()),
+        held_out=tuple(log.name for log in rows.logs.held_out),
+        robot_text=model.robot_text,
+        delay=model.processing.delay,
         joints={name: (error, error) for name, error in errors.items()},
     )
 
@@ -482,19 +460,17 @@ def _fit_with_candidate(before: _FittedModel, pick: FittedCandidate) -> _FittedM
     """The model with the effect, fitted; with a body more on a link, nothing else is."""
     model, rows, effect = before.model, before.rows, pick.candidate.effect
     if effect.acts is EffectTarget.LINK:
-        parameter_names = [
-            p.name for p in list_body_parameters(pick.candidate, pick.state.rows.signals[0])
-        ]
+        body = list_body_parameters(pick.candidate, pick.state.rows.signals[0])
         names = [p.name for p in model.spec.standard]
-        chi = np.eye(len(names))[[names.index(name) for name in parameter_names]]
+        chi = np.eye(len(names))[[names.index(p.name) for p in body]]
         free = np.column_stack([rows.compiled.base_parameters(one) for one in chi])
         pairs = zip(model.fit.parameters, model.beta + free @ pick.values, strict=True)
-        parameters = tuple(dataclasses.replace(p, value=float(v)) for p, v in pairs)
-        fit = dataclasses.replace(model.fit, parameters=parameters)
-        return _FittedModel(dataclasses.replace(model, fit=fit), rows, free)
+        parameters = tuple(replace(p, value=float(v)) for p, v in pairs)
+        fit = replace(model.fit, parameters=parameters)
+        return _FittedModel(replace(model, fit=fit), rows, free)
     if effect.acts is EffectTarget.TORQUE:
         seen = pick.state.data.observation.report.processing
-        processing = dataclasses.replace(model.processing, delay=seen.delay + float(pick.values[0]))
+        processing = replace(model.processing, delay=seen.delay + float(pick.values[0]))
         return _fit_robot_file(
             model, model.robot_text, lambda made: build_rows(made, rows.logs, processing)
         )
@@ -505,24 +481,17 @@ def _fit_with_candidate(before: _FittedModel, pick: FittedCandidate) -> _FittedM
 def _complete_model(fitted: _FittedModel) -> IdentifiedModel:
     """The model with the spread along its shapes, and its verdict."""
     model, rows = fitted.model, fitted.rows
-    wide = analyse_logs(
-        rows.compiled, rows.logs.training, model.processing, prepared=rows.prepared[0]
-    )
-    model = add_nonlinear_uncertainty(model, rows.compiled, wide)
-    fit = judge_fit(rows.compiled, rows.fit_observation, model.fit)
-    return dataclasses.replace(model, fit=fit)
+    model = add_nonlinear_uncertainty(model, rows.compiled, fitted.analyse())
+    return replace(model, fit=judge_fit(rows.compiled, rows.fit_observation, model.fit))
 
 
 def _fit_robot_file(
     before: IdentifiedModel, text: str, observe: Callable[[CompiledModel], LogRows]
 ) -> _FittedModel:
     """The robot of that file fitted to the logs, which are read as those of the model before."""
-    derivation = derive(parse_robot_text(text, "robot with the effect"))
-    emitted = generate(derivation)
+    emitted = generate(derive(parse_robot_text(text, "robot with the effect")))
     rows = observe(load_module(emitted.spec, emitted.code))
-    fit, used = (
-        identify(rows.fit_observation, "weighted", rows.compiled),
-        collect_provenance(rows.fit_observation.report),
-    )
+    fit = identify(rows.fit_observation, "weighted", rows.compiled)
+    used = collect_provenance(rows.fit_observation.report)
     model = IdentifiedModel(text, emitted.spec, emitted.code, fit, used, mapping=before.mapping)
     return _FittedModel(model, rows)

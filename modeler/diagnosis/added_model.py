@@ -1,21 +1,21 @@
 """The model with an effect: its robot file, its rows, how sure its values are, notes on it."""
 
-import dataclasses
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.learn import LEARNED, LearnedLaw, choose_free_name, make_effect_id
+from modeler.diagnosis.messages import format_location
 from modeler.diagnosis.profile import Profile, compute_profile, is_prismatic
 from modeler.diagnosis.ranking import build_gram_blocks, build_time_blocks
 from modeler.diagnosis.result import FittedCandidate
-from modeler.diagnosis.score import Residuals, explain_no_improvement, format_error_changes
-from modeler.diagnosis.sentences import format_location
+from modeler.diagnosis.scoring import Residuals, explain_no_improvement, format_error_changes
 from modeler.diagnosis.signals import SignalReference, compute_tilt_axes
 from modeler.diagnosis.state import SearchData, State, build_columns, build_state
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import PASSIVE_FRICTION, PASSIVE_FRICTION_IS, Effect, EffectTarget, find_effect
 from modeler.estimation import (
     Addition,
@@ -50,7 +50,7 @@ from modeler.runtime import CompiledModel
 def add_nonlinear_uncertainty(
     model: IdentifiedModel, compiled: CompiledModel, observation: Observation
 ) -> IdentifiedModel:
-    """The model with standard deviations that know that shapes were fitted too.
+    """Adds the uncertainty of fitted nonlinear parameters to all standard deviations.
 
     Covariance, sigmas of all parameters, intervals of the parameters and shapes of the effects in
     its history. The shapes of one effect are varied at a time.
@@ -72,16 +72,16 @@ def add_nonlinear_uncertainty(
         if along is None:
             continue
         model = _widen_covariance(model, along, effect_columns)
-        history[i] = dataclasses.replace(
+        history[i] = replace(
             step,
             shape_sigmas=along.compute_nonlinear_deviations(),
             shape_intervals=along.compute_nonlinear_intervals(),
         )
-    return dataclasses.replace(model, history=tuple(history))
+    return replace(model, history=tuple(history))
 
 
 def read_catalogue(model: IdentifiedModel) -> tuple[Effect, ...]:
-    """The effects that there are for its robot."""
+    """Reads the effects that exist for its robot."""
     return parse_robot_text(model.robot_text, "robot of the model").catalogue
 
 
@@ -90,9 +90,8 @@ def _rebuild_candidate(model: IdentifiedModel, step: Addition) -> Candidate | No
     effect = find_effect(step.effect, read_catalogue(model))
     if effect is None or effect.acts is not EffectTarget.JOINT or not step.shapes:
         return None
-    forms = [
-        f for f in effect.forms if {s.name for s in f.nonlinear_parameters} == set(step.shapes)
-    ]
+    choices = [({shape.name for shape in f.nonlinear_parameters}, f) for f in effect.forms]
+    forms = [form for shapes, form in choices if shapes == set(step.shapes)]
     names = [joint.name for joint in model.spec.joints]
     if not forms or step.joint not in names:
         return None
@@ -109,9 +108,8 @@ def _find_effect_columns(model: IdentifiedModel, state: State, pick: Candidate) 
     if joint_columns is None or len(free) < joint_columns.shape[1]:
         return []
     base = state.rows.W[pick.index][:, free]
-    alike = (joint_columns / compute_column_norms(joint_columns)).T @ (
-        base / compute_column_norms(base)
-    )
+    left, right = (x / compute_column_norms(x) for x in (joint_columns, base))
+    alike = left.T @ right
     return [free[i] for i in linear_sum_assignment(-np.abs(alike))[1]]
 
 
@@ -135,13 +133,11 @@ def _widen_covariance(
     ends = [(float(low), float(high)) for low, high in along.compute_intervals() + moved[:, None]]
     intervals, sigma = dict(zip(effect_columns, ends, strict=True)), np.sqrt(np.diag(covariance))
     parameters = tuple(
-        dataclasses.replace(p, sigma=float(sigma[i]), interval=intervals.get(i, p.interval))
-        if known[i]
-        else p
+        replace(p, sigma=float(sigma[i]), interval=intervals.get(i, p.interval)) if known[i] else p
         for i, p in enumerate(fit.parameters)
     )
-    better = dataclasses.replace(fit, parameters=parameters, covariance=covariance)
-    return dataclasses.replace(model, fit=better)
+    better = replace(fit, parameters=parameters, covariance=covariance)
+    return replace(model, fit=better)
 
 
 # The robot file with one effect more.
@@ -150,7 +146,7 @@ def _widen_covariance(
 def insert_candidate(
     text: str, pick: Candidate, values: np.ndarray, reference: SignalReference
 ) -> str:
-    """The robot file with the effect.
+    """Inserts the effect into the robot file.
 
     Args:
         text: as it is.
@@ -174,13 +170,11 @@ def insert_candidate(
         return text
     if effect.acts is EffectTarget.MOTOR:
         text = _insert_coupling(text, pick, reference)
-    changed = insert_effect(
-        text, effect.id, pick.joint, _collect_nonlinear_parameters(pick, reference)
-    )
+    parameters = _collect_nonlinear_parameters(pick, reference)
+    changed = insert_effect(text, effect.id, pick.joint, parameters)
     names = frozenset().union(*(form.names for form in effect.forms))
-    depends = effect.acts is EffectTarget.POSITION or not names.isdisjoint(
-        {"load", "static", "torque"}
-    )
+    depends = not names.isdisjoint({"load", "static", "torque"})
+    depends = depends or effect.acts is EffectTarget.POSITION
     return replace_reference(changed, _build_reference(reference)) if depends else changed
 
 
@@ -217,17 +211,14 @@ def _build_reference(reference: SignalReference) -> dict[str, float]:
     """Standard parameters with the torques of the model: each base parameter in its own column."""
     known = ("rigid_body", "rotor_inertia", "viscous", "coulomb", "offset")
     effects = {p.name: p.effect for p in reference.compiled.spec.standard}
-    return {
-        base.column_of: float(f"{value:.9g}")
-        for base, value in zip(reference.compiled.spec.base, reference.beta, strict=True)
-        if effects[base.column_of] in known
-    }
+    pairs = zip((b.column_of for b in reference.compiled.spec.base), reference.beta, strict=True)
+    return {name: float(f"{value:.9g}") for name, value in pairs if effects[name] in known}
 
 
 def insert_law(
     text: str, state: State, joint: str, learned: LearnedLaw
 ) -> tuple[str, FittedCandidate]:
-    """The robot file with the definition of a law, and the law as an effect to be put in.
+    """Inserts a law into the robot file; returns the text, and the law as a fitted candidate.
 
     Args:
         text: of the robot file.
@@ -244,9 +235,8 @@ def insert_law(
         "columns": {prefix: learned.coordinates.equation},
         "unit": state.spec.joints[j].effort_unit.replace(" ", "*"),
         **learned.coordinates.further,
-        "law": {"low": list(law.low), "high": list(law.high), "cells": list(law.cells),
-                "values": list(law.values)},
-    }  # fmt: skip
+        "law": {name: list(getattr(law, name)) for name in ("low", "high", "cells", "values")},
+    }
     text = insert_own_effect(text, name, definition)
     effect = find_effect(name, parse_robot_text(text, "robot with a law").catalogue)
     assert effect is not None
@@ -284,7 +274,7 @@ def _insert_coupling(text: str, pick: Candidate, reference: SignalReference) -> 
 
 
 def describe_last_addition(model: IdentifiedModel) -> list[str]:
-    """Parameters that the step added last put into the model, with their units and shapes."""
+    """Describes the parameters that the last step added, with units."""
     if len(model.history) < 2:
         return []
     last = model.history[-1]
@@ -293,11 +283,8 @@ def describe_last_addition(model: IdentifiedModel) -> list[str]:
         for p in _find_parameters(model, last)
     ]
     if lines and last.shapes:
-        units, sigmas, ends = (
-            _format_nonlinear_units(model, last),
-            last.shape_sigmas,
-            last.shape_intervals,
-        )
+        units, sigmas = _format_nonlinear_units(model, last), last.shape_sigmas
+        ends = last.shape_intervals
         texts = [
             f"{k} = {v:.4g}{format_spread(v, sigmas.get(k, 0.0), ends.get(k))}{units.get(k, '')}"
             for k, v in last.shapes.items()
@@ -305,28 +292,24 @@ def describe_last_addition(model: IdentifiedModel) -> list[str]:
         lines.append("with " + ", ".join(texts))
     if last.moved:
         order = sorted(last.moved, key=lambda name: -last.moved[name])
-        shifts = [f"{name} {last.moved[name]:.2g}" for name in order[:_SHOWN]]
-        if len(order) > _SHOWN:
-            shifts.append(f"all others less than {last.moved[order[_SHOWN - 1]]:.2g}")
+        count = THRESHOLDS.max_listed_shifts
+        shifts = [f"{name} {last.moved[name]:.2g}" for name in order[:count]]
+        if len(order) > count:
+            shifts.append(f"all others less than {last.moved[order[count - 1]]:.2g}")
         lines.append(f"moved by it, in their sigmas: {', '.join(shifts)}")
     return lines
 
 
-_SHOWN = 8
-"""Parameters of which is told by how much they moved."""
-
-
 def _find_parameters(model: IdentifiedModel, step: Addition) -> list[ParameterEstimate]:
     """Base parameters that are an effect's own."""
-    standard_names = {
-        p.name for p in model.spec.standard if (p.effect, p.joint) == (step.effect, step.joint)
-    }
+    key = step.effect, step.joint
+    standard_names = {p.name for p in model.spec.standard if (p.effect, p.joint) == key}
     base = {b.name for b in model.spec.base if b.column_of in standard_names}
     return [p for p in model.fit.parameters if p.name in base]
 
 
 def is_unneeded(model: IdentifiedModel, step: Addition) -> bool:
-    """True of an effect whose parameters are all below their sigmas, beside all in the model."""
+    """Tells whether all parameters of an effect are below their standard deviations."""
     estimates = _find_parameters(model, step)
     return bool(estimates) and all(abs(p.value) <= (p.sigma or 0.0) for p in estimates)
 
@@ -341,7 +324,7 @@ def _format_nonlinear_units(model: IdentifiedModel, step: Addition) -> dict[str,
 
 
 def describe_additions(model: IdentifiedModel, since: int = -1) -> list[str]:
-    """Sentences on steps that were added: which errors fall, and what is not as asked.
+    """Describes added steps: which errors fall, and what differs from the request.
 
     Args:
         model: with its history.
@@ -355,9 +338,8 @@ def describe_additions(model: IdentifiedModel, since: int = -1) -> list[str]:
         assert effect is not None
         name = f"{effect.id}, {format_location(step.joint)}"
         usual = effect.forms[0]
-        if "T" in usual.names and {shape.name for shape in usual.nonlinear_parameters} != set(
-            step.shapes
-        ):
+        shapes = {shape.name for shape in usual.nonlinear_parameters}
+        if "T" in usual.names and shapes != set(step.shapes):
             lines.append(
                 f"{name}: the logs have no column temperature{step.joint} or temperature, so the "
                 "time since their start stands for it; log it to know more"
@@ -388,7 +370,7 @@ class LogSplit:
 
     @property
     def log_sets(self) -> list[Sequence[Log]]:
-        """Those that hold logs: the fitted ones first."""
+        """Returns the sets that hold logs: the training logs first."""
         return [self.training, self.held_out] if self.held_out else [self.training]
 
 
@@ -400,7 +382,7 @@ class LogRows:
         logs: they.
         compiled: the robot.
         prepared: filtered and differentiated; those that are held out second, if there are any.
-        seen: the observations, in that order.
+        observations: the observations, in that order.
     """
 
     logs: LogSplit
@@ -410,21 +392,19 @@ class LogRows:
 
     @property
     def fit_observation(self) -> Observation:
-        """What a model is fitted to."""
+        """Returns the observation that a model is fitted to."""
         return self.observations[0]
 
     def rebuild_for(self, compiled: CompiledModel) -> "LogRows":
-        """The rows of the same robot with other effects; nothing is filtered again."""
+        """Returns the rows of the same robot with other effects; nothing is filtered again."""
         if find_shafts(compiled) == find_shafts(self.compiled):
-            seen = tuple(
-                rebuild_observation(compiled, observation) for observation in self.observations
-            )
-            return dataclasses.replace(self, compiled=compiled, observations=seen)
+            seen = tuple(rebuild_observation(compiled, x) for x in self.observations)
+            return replace(self, compiled=compiled, observations=seen)
         return _observe_rows(compiled, self.logs, self.prepared)
 
 
 def build_rows(compiled: CompiledModel, logs: LogSplit, processing: Processing) -> LogRows:
-    """The rows of logs.
+    """Builds the rows of logs.
 
     Args:
         compiled: the robot.
@@ -442,25 +422,23 @@ def _observe_rows(
     compiled: CompiledModel, logs: LogSplit, prepared: tuple[PreparedLogs, ...]
 ) -> LogRows:
     pairs = zip(logs.log_sets, prepared, strict=True)
-    return LogRows(
-        logs, compiled, prepared, tuple(build_observation(compiled, *pair) for pair in pairs)
-    )
+    observations = tuple(build_observation(compiled, *pair) for pair in pairs)
+    return LogRows(logs, compiled, prepared, observations)
 
 
 def compute_residuals(
     model: IdentifiedModel, compiled: CompiledModel, observation: Observation
 ) -> Residuals:
-    """What it leaves of logs."""
+    """Computes the residuals of the model on logs."""
     left = observation.torque - compute_model_torque(observation, compiled, model.beta)
-    return _build_residuals(
-        observation, [left[used_rows, j] for j, used_rows in enumerate(observation.used.T)]
-    )
+    parts = [left[used, j] for j, used in enumerate(observation.used.T)]
+    return _build_residuals(observation, parts)
 
 
 def cross_validate_residuals(
     model: IdentifiedModel, observation: Observation, free: np.ndarray | None = None
 ) -> Residuals:
-    """What it leaves of its own logs, each eighth predicted from a fit to the others.
+    """Computes cross-validated residuals: each eighth predicted from a fit to the others.
 
     Args:
         model: fitted.
@@ -479,9 +457,8 @@ def cross_validate_residuals(
         known = prior.extend_rows(np.linalg.norm(weighted, axis=0))
     number = [blocks.number[used_rows] for used_rows in used]
     base = build_gram_blocks(W, y, sigma, number, blocks.fold, prior=known)
-    return _build_residuals(
-        observation, [s * e for s, e in zip(sigma, base.cross_validated_residuals, strict=True)]
-    )
+    parts = [s * e for s, e in zip(sigma, base.out_of_fold, strict=True)]
+    return _build_residuals(observation, parts)
 
 
 def _build_residuals(observation: Observation, left: list[np.ndarray]) -> Residuals:

@@ -1,23 +1,34 @@
-"""What could be missing: every effect on every joint, over its grid of shapes."""
+"""What could be missing: effects on joints over their grids, and their columns on the rows."""
 
-import dataclasses
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from modeler.core.brief import ShortRepr
-from modeler.core.manifest import ModuleSpec
+from modeler.core.manifest import ModuleSpec, ParameterSpec
+from modeler.diagnosis.signals import EVERY, SignalReference, Signals, compute_tilt_columns
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import (
     CATALOGUE,
+    NOISE,
     PASSIVE_FRICTION_IS,
+    TURN,
     Effect,
     EffectTarget,
     Form,
     NonlinearParameter,
     Requirement,
 )
+from modeler.numerics.filters import SPREAD, restrict_weights
+from modeler.regression import FilteredSegment, Observation, compute_signals, rebuild_observation
+
+if TYPE_CHECKING:
+    from modeler.runtime import CompiledModel
 
 
 @dataclass(frozen=True)
@@ -48,17 +59,20 @@ class JointScale:
     middle: float = 0.0
 
     def get_unit(self, shape: NonlinearParameter) -> float:
-        """What 1 means in the grid of a shape parameter, SI."""
+        """Returns the SI value of 1 in the grid of a nonlinear parameter."""
         travel = 1.0 if self.angular else self.range / 3.0
         units = {
-            "speed": self.speed, "travel": travel, "place": travel, "bend": travel**-2,
+            "speed": self.speed,
+            "travel": travel,
+            "place": travel,
+            "bend": travel**-2,
             "turn": 1.0 if self.angular else 2.0 * np.pi / self.range,
             "load": self.load,
-        }  # fmt: skip
+        }
         return units.get(shape.scale, 1.0)
 
     def scale_value(self, shape: NonlinearParameter, entry: float) -> float:
-        """Of a shape parameter from an entry of its grid or limits, SI."""
+        """Converts an entry of a grid or a limit of a nonlinear parameter to SI."""
         start = self.middle if shape.scale == "place" else 0.0
         return start + entry * self.get_unit(shape)
 
@@ -72,8 +86,8 @@ class Candidate(ShortRepr):
         form: which of its forms.
         joint: name; None for an effect of the whole robot.
         index: of the joint among those of the model, or of the row that has no motor; -1 without.
-        shapes: values by name, SI.
-        turn: of a motor that turns with several joints, {index of a joint: coefficient}.
+        nonlinear_parameters: values by name, SI.
+        coupling: of a motor that turns with several joints, {index of a joint: coefficient}.
     """
 
     effect: Effect
@@ -85,58 +99,57 @@ class Candidate(ShortRepr):
 
     @property
     def key(self) -> tuple[str, str | None]:
-        """Effect and joint: what a diagnosis names."""
+        """Returns effect and joint, which a diagnosis names."""
         return self.effect.id, self.joint
 
     @property
     def wave_order(self) -> float:
-        """Waves per turn, or per 2 pi m; 0 if it has none."""
-        waves = [
-            self.nonlinear_parameters[shape.name]
-            for shape in self.form.nonlinear_parameters
-            if shape.scale == "waves"
-        ]
+        """Returns waves per turn, or per 2 pi m; 0 without any."""
+        names = [s.name for s in self.form.nonlinear_parameters if s.scale == "waves"]
+        waves = [self.nonlinear_parameters[name] for name in names]
         return waves[0] if waves else 0.0
 
     @property
     def is_local(self) -> bool:
-        """True if it enters the torque of its own joint only."""
+        """Tells whether it enters the torque of its own joint only."""
         return self.effect.acts is EffectTarget.JOINT
 
     @property
     def is_delay(self) -> bool:
-        """True if it shifts all torques in time."""
+        """Tells whether it shifts all torques in time."""
         return "rate" in self.form.names
 
     @property
     def scale_index(self) -> int:
-        """Index of the joint whose scale its shapes have; 0 for what sits on no joint of q."""
+        """Returns the index of the joint that scales its parameters; 0 without one."""
         of_joints = (EffectTarget.JOINT, EffectTarget.MOTOR, EffectTarget.POSITION)
         return max(self.index, 0) if self.effect.acts in of_joints else 0
 
     def list_parameter_names(self) -> list[str]:
-        """Of its columns, as in a robot file."""
+        """Lists the names of its columns, as in a robot file."""
         return [f"{column.prefix}{self.joint or ''}" for column in self.form.columns]
 
     def can_refine(self, shape: NonlinearParameter) -> bool:
-        """True if values beside that of the candidate make sense: of waves, if no grid gave it."""
+        """Tells whether values off the grid are possible; of waves, if no grid gave the order."""
         if shape.scale == "waves":
             return self.nonlinear_parameters[shape.name] not in shape.grid
         return shape.is_continuous
 
-    def replace_nonlinear_parameters(
+    def set_parameters(
         self, shapes: Sequence[NonlinearParameter], x: Sequence[float] | np.ndarray
     ) -> "Candidate":
-        """The same effect with other coded values of some shapes."""
-        values = {
-            shape.name: decode_parameter(shape, v) for shape, v in zip(shapes, x, strict=True)
-        }
-        return dataclasses.replace(
-            self, nonlinear_parameters={**self.nonlinear_parameters, **values}
-        )
+        """Returns the same effect with other encoded values of some parameters."""
+        pairs = zip(shapes, x, strict=True)
+        values = {shape.name: decode_parameter(shape, v) for shape, v in pairs}
+        return replace(self, nonlinear_parameters={**self.nonlinear_parameters, **values})
+
+    def encode_parameters(self, shapes: Sequence[NonlinearParameter]) -> np.ndarray:
+        """Encodes the values of some parameters."""
+        values = self.nonlinear_parameters
+        return np.array([encode_parameter(shape, values[shape.name]) for shape in shapes])
 
     def list_affected_joints(self, joints: int) -> list[int]:
-        """Indices of the joints whose errors it is there to explain."""
+        """Lists the indices of the joints whose errors it can explain."""
         if self.is_local:
             return [self.index]
         if self.effect.acts is EffectTarget.MOTOR:
@@ -147,12 +160,12 @@ class Candidate(ShortRepr):
 
 
 def list_links(spec: ModuleSpec) -> list[str]:
-    """Names of the links that have inertial parameters."""
+    """Lists the names of the links that have inertial parameters."""
     return list(dict.fromkeys(p.joint for p in spec.standard if p.effect == "rigid_body"))
 
 
 def find_passive_joints(spec: ModuleSpec) -> dict[str, int]:
-    """Joints without motor by name, and their places among the variables of the loops.
+    """Finds joints without motor: names, and places among the variables of the loops.
 
     In a robot without loops, their places among the joints.
     """
@@ -163,12 +176,12 @@ def find_passive_joints(spec: ModuleSpec) -> dict[str, int]:
 
 
 def encode_parameter(shape: NonlinearParameter, value: float) -> float:
-    """Positive shapes by their logarithm."""
+    """Encodes a positive parameter by its logarithm."""
     return float(np.log(value)) if shape.limits[0] > 0.0 else value
 
 
 def decode_parameter(shape: NonlinearParameter, x: float) -> float:
-    """The value of a coded shape."""
+    """Decodes an encoded parameter."""
     return float(np.exp(x)) if shape.limits[0] > 0.0 else float(x)
 
 
@@ -180,7 +193,7 @@ def list_candidates(
     known: StatedEffects,
     allowed: Callable[[str, str | None], bool] = lambda effect, joint: True,
 ) -> list[Candidate]:
-    """All that can be written as columns from the catalogue alone.
+    """Lists all candidates that the catalogue alone determines.
 
     Loads, contacts and ripples whose order is not known yet come from elsewhere.
 
@@ -206,7 +219,7 @@ def list_candidates(
                     if form is not None and _has_logged_others(form, joint.name, spec):
                         results += expand_grid(effect, form, joint.name, j, scales[j])
             if Requirement.LAG in effect.needs and len(spec.joints) > 1:
-                whole = dataclasses.replace(effect, acts=EffectTarget.TORQUE)
+                whole = replace(effect, acts=EffectTarget.TORQUE)
                 results += expand_grid(whole, whole.forms[0], None, -1, scales[0])
         elif effect.acts in (EffectTarget.TORQUE, EffectTarget.GRAVITY):
             results.append(Candidate(effect, effect.forms[0], None, -1))
@@ -224,9 +237,8 @@ def _has_logged_others(form: Form, joint: str, spec: ModuleSpec) -> bool:
 
 
 def _is_representative(
-    effect: Effect, joint: str, known: StatedEffects,
-    allowed: Callable[[str, str | None], bool],
-) -> bool:  # fmt: skip
+    effect: Effect, joint: str, known: StatedEffects, allowed: Callable[[str, str | None], bool]
+) -> bool:
     """True if it stands for those that no data tell from it: the first that is not ruled out."""
     for other in known.catalogue:
         if other is effect:
@@ -239,12 +251,10 @@ def _is_representative(
 def expand_grid(
     effect: Effect, form: Form, joint: str | None, index: int, scale: JointScale
 ) -> Iterator[Candidate]:
-    """An effect on a joint with all combinations of its shapes."""
+    """Expands an effect on a joint over the grids of its parameters."""
     names = [shape.name for shape in form.nonlinear_parameters]
-    grids = [
-        [scale.scale_value(shape, entry) for entry in shape.grid]
-        for shape in form.nonlinear_parameters
-    ]
+    shapes = form.nonlinear_parameters
+    grids = [[scale.scale_value(shape, entry) for entry in shape.grid] for shape in shapes]
     for values in itertools.product(*grids):
         yield Candidate(effect, form, joint, index, dict(zip(names, values, strict=True)))
 
@@ -259,9 +269,8 @@ def _generate_motor_candidates(
             continue
         form = effect.forms[0]
         if here.name in known.coupling:
-            coefficients = {
-                place[name]: factor for name, factor in known.coupling[here.name].items()
-            }
+            pairs = known.coupling[here.name].items()
+            coefficients = {place[name]: factor for name, factor in pairs}
             yield Candidate(effect, form, here.name, j, {}, coefficients)
         elif j > 0 and here.unit == spec.joints[j - 1].unit:
             for ratio in (1.0, -1.0):
@@ -280,7 +289,7 @@ def _generate_passive_candidates(
 def compute_scales(
     spec: ModuleSpec, q: Sequence[np.ndarray], v: Sequence[np.ndarray], load: Sequence[np.ndarray]
 ) -> list[JointScale]:
-    """Of every joint, from samples (n, J) of all stretches."""
+    """Computes the scale of every joint from samples (n, J) of all segments."""
     positions, speeds, loads = (np.concatenate(list(x)) for x in (q, v, load))
     return [
         JointScale(
@@ -292,3 +301,341 @@ def compute_scales(
         )
         for j in range(positions.shape[1])
     ]
+
+
+# The columns of a candidate over the samples of a segment: the catalogue's equations in numpy.
+
+
+FUNCTIONS = {
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "sqrt": np.sqrt,
+    "exp": np.exp,
+    "abs": np.abs,
+    "sign": np.sign,
+    "tanh": np.tanh,
+}
+
+
+def evaluate_equations(
+    candidates: Sequence[Candidate], signals: Signals, window: slice = EVERY
+) -> np.ndarray:
+    """Evaluates the equations of candidates of one form on one joint, (n, k), side by side.
+
+    Over a window of the samples.
+    """
+    first = candidates[0]
+    j, names, memory = first.index, first.form.names, first.form.internal_state
+    values: dict[str, object] = {
+        name: np.array([candidate.nonlinear_parameters[name] for candidate in candidates])
+        for name in first.nonlinear_parameters
+    }
+    span = window if memory is None else EVERY  # what remembers reads the stretch from its start
+    read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
+    values |= {name: getattr(signals, name)[span, j, None] for name in read}
+    others = first.form.other_joint_names
+    values |= {name: signals.select_other(name)[span, None] for name in others}
+    if "t" in names:
+        values["t"] = signals.time[span, None]
+    if "since" in names:
+        backs = [candidate.nonlinear_parameters.get(TURN, NOISE) for candidate in candidates]
+        times = [signals.compute_reversal_time(j, back)[span] for back in backs]
+        values["since"] = np.column_stack(times)
+    if "T" in names and (warmth := signals.compute_temperature(first.joint or "")) is not None:
+        values["T"] = warmth[span, None]
+    with np.errstate(all="ignore"):  # columns that are not finite are not looked at
+        if memory is not None:
+            x = np.zeros(1)
+            if memory.lagged_input is not None:
+                x = memory.lagged_input.fold(values, FUNCTIONS, np.pi, float)
+            followed = np.broadcast_to(x, (len(signals.q), len(candidates))).T
+            states = [
+                signals.compute_memory_state(memory, j, candidate.nonlinear_parameters, signal)
+                for candidate, signal in zip(candidates, followed, strict=True)
+            ]
+            values["z"] = np.column_stack(states)
+        columns = np.empty((len(signals.q[span]), len(candidates), len(first.form.columns)))
+        for k, column in enumerate(first.form.columns):
+            columns[:, :, k] = column.equation.fold(values, FUNCTIONS, np.pi, float)
+    columns = columns if memory is None else columns[window]
+    return columns.reshape(len(columns), -1)
+
+
+def evaluate_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -> np.ndarray:
+    """Evaluates the torques of its columns on every joint, (n, J, k), over a window."""
+    acts = candidate.effect.acts
+    if candidate.is_delay:
+        return signals.rate[window, :, None]
+    if acts is EffectTarget.GRAVITY:
+        return compute_tilt_columns(signals, window)
+    if acts is EffectTarget.LINK:
+        places = [i for i, _ in _find_inertial_parameters(candidate, signals)]
+        return signals.compute_regressor(window)[:, :, places]
+    if acts is EffectTarget.MOTOR:
+        turn = np.zeros(signals.q.shape[1])
+        turn[list(candidate.coupling)] = list(candidate.coupling.values())
+        columns = _evaluate_shaft(candidate, signals.v[window] @ turn, signals.a[window] @ turn)
+        return columns[:, None, :] * turn[None, :, None]
+    if acts is EffectTarget.PASSIVE:
+        row = signals.coupling[window, candidate.index]
+        speed = np.einsum("nj,nj->n", row, signals.v[window])
+        columns = _evaluate_shaft(candidate, speed, np.zeros_like(speed))
+        return columns[:, None, :] * row[:, :, None]
+    if acts is EffectTarget.POSITION:
+        dq = evaluate_equations([candidate], signals)
+        whole = candidate.effect.whole_axis
+        return signals.compute_displacement_torque(candidate.index, dq, whole, window)
+    columns = evaluate_equations([candidate], signals, window)
+    result = np.zeros((len(columns), signals.q.shape[1], columns.shape[1]))
+    result[:, candidate.index] = columns
+    return result
+
+
+def _evaluate_shaft(
+    candidate: Candidate, speed: np.ndarray, acceleration: np.ndarray
+) -> np.ndarray:
+    """(n, k) equations of a shaft that is no joint of the model."""
+    values = {"v": speed, "a": acceleration}
+    equations = (column.equation for column in candidate.form.columns)
+    return np.column_stack([e.fold(values, FUNCTIONS, np.pi, float) for e in equations])
+
+
+def list_body_parameters(candidate: Candidate, signals: Signals) -> list[ParameterSpec]:
+    """Lists the standard parameters of the columns of a body on a link."""
+    return [parameter for _, parameter in _find_inertial_parameters(candidate, signals)]
+
+
+def _find_inertial_parameters(
+    candidate: Candidate, signals: Signals
+) -> list[tuple[int, ParameterSpec]]:
+    """Inertial parameters of the link that a candidate loads that any joint feels; their places."""
+    spec = signals.reference.compiled.spec
+    link_key = "rigid_body", list_links(spec)[candidate.index]
+    every = [(i, p) for i, p in enumerate(spec.standard) if (p.effect, p.joint) == link_key]
+    least = THRESHOLDS.min_parameter_column
+    return [(i, p) for i, p in every if signals.column_maxima[i] > least]
+
+
+Columns = tuple[np.ndarray | None, ...]
+"""Columns of one candidate by joint, (rows_j, k) each; None where they are zero throughout."""
+
+
+Evaluate = Callable[[int, slice], np.ndarray]
+"""Values over a window of the samples of a stretch, by its number."""
+
+
+@dataclass(frozen=True, eq=False)
+class RowBlock(ShortRepr):
+    """Rows that lie beside each other, and the samples that they reach.
+
+    Attributes:
+        window: samples.
+        filters: (rows_j, samples of the window) by joint.
+    """
+
+    window: slice
+    filters: tuple[csr_array, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Rows(ShortRepr):
+    """The used rows of every joint; J joints, c base columns.
+
+    Attributes:
+        y: (rows_j,) by joint, measured torque, N m or N.
+        W: (rows_j, c) by joint, base columns.
+        time: (rows_j,) by joint, s.
+        run: (rows_j,) by joint, index of the log.
+        segment: (rows_j,) by joint.
+        blocks: filters (rows_j, samples) in pieces, by stretch.
+        signals: by stretch.
+        reference_cache: what was made of them for this reference, by name.
+        cache: columns that do not depend on the model, shared by all references.
+    """
+
+    y: tuple[np.ndarray, ...]
+    W: tuple[np.ndarray, ...]
+    time: tuple[np.ndarray, ...]
+    run: tuple[np.ndarray, ...]
+    segment: tuple[np.ndarray, ...]
+    blocks: tuple[tuple[RowBlock, ...], ...]
+    signals: tuple[Signals, ...]
+    reference_cache: dict[Any, Any] = field(default_factory=dict)
+    cache: dict[Any, Any] = field(default_factory=dict)
+
+    @property
+    def joint_count(self) -> int:
+        """Returns the number of joints, J."""
+        return len(self.y)
+
+    def replace_reference(self, reference: SignalReference) -> "Rows":
+        """Returns the same rows with effects linearised about another reference."""
+        signals = tuple(replace(s, reference=reference) for s in self.signals)
+        return replace(self, signals=signals, reference_cache={})
+
+    def filter_samples(self, j: int, values: Sequence[np.ndarray]) -> np.ndarray:
+        """Filters values (samples, ...) by segment to the rows of joint j, (rows_j, ...)."""
+        blocks = self._numbered_blocks
+        return np.concatenate([b.filters[j] @ values[i][b.window] for i, b in blocks])
+
+    def build_columns(self, candidate: Candidate) -> Columns:
+        """Builds the columns of a candidate on these rows."""
+        if candidate.is_local or candidate.effect.acts is EffectTarget.POSITION:
+            return self._build_stacked([candidate])
+        if (
+            candidate.effect.acts is EffectTarget.TORQUE and not candidate.is_delay
+        ):  # alike on every joint
+            alone = [replace(candidate, index=j) for j in range(self.joint_count)]
+            each = ([evaluate_equations([c], s) for c in alone] for s in self.signals)
+            values = [np.stack(columns, axis=1) for columns in each]
+            return self.filter_joints(lambda i, w: values[i][w])
+        return self.filter_joints(lambda i, w: evaluate_columns(candidate, self.signals[i], w))
+
+    def build_batch(self, candidates: Sequence[Candidate]) -> list[Columns]:
+        """Builds the columns of several candidates of one effect on one joint."""
+        first = candidates[0]
+        if not first.is_local and first.effect.acts is not EffectTarget.POSITION:
+            return [self.build_columns(candidate) for candidate in candidates]
+        whole = self._build_stacked(candidates)
+        columns = [None if c is None else np.ascontiguousarray(c.T) for c in whole]
+        size = len(first.form.columns)
+        # a candidate may leave joints alone that its neighbours move
+        return [
+            tuple(
+                None if c is None or not c[k : k + size].any() else c[k : k + size].T
+                for c in columns
+            )
+            for k in range(0, size * len(candidates), size)
+        ]
+
+    def _build_stacked(self, candidates: Sequence[Candidate]) -> Columns:
+        """Columns of candidates of one effect on its joint, beside each other."""
+        first, signals = candidates[0], self.signals
+        j, whole = first.index, first.effect.whole_axis
+        if first.is_local and first.form.internal_state is None:
+            return self._filter_joint(j, lambda i, w: evaluate_equations(candidates, signals[i], w))
+        values = [evaluate_equations(candidates, s) for s in signals]
+        if first.is_local:
+            return self._filter_joint(j, lambda i, w: values[i][w])
+        return self.filter_joints(
+            lambda i, w: signals[i].compute_displacement_torque(j, values[i], whole, w)
+        )
+
+    def _filter_joint(self, j: int, evaluate: Evaluate) -> Columns:
+        """Columns of one joint from its values (samples, k)."""
+        columns: list[np.ndarray | None] = [None] * self.joint_count
+        blocks = self._numbered_blocks
+        columns[j] = np.concatenate([b.filters[j] @ evaluate(i, b.window) for i, b in blocks])
+        return tuple(columns)
+
+    def filter_joints(self, evaluate: Evaluate) -> Columns:
+        """Filters values (samples, J, k) to columns; None on joints where they are zero."""
+        parts: list[list[np.ndarray]] = [[] for _ in range(self.joint_count)]
+        shown = np.zeros(self.joint_count, dtype=bool)
+        for i, block in self._numbered_blocks:
+            values = evaluate(i, block.window)
+            shown |= values.any(axis=(0, 2))
+            for j, weights in enumerate(block.filters):
+                parts[j].append(weights @ values[:, j])
+        pairs = zip(parts, shown, strict=True)
+        return tuple(np.concatenate(part) if is_shown else None for part, is_shown in pairs)
+
+    @property
+    def _numbered_blocks(self) -> list[tuple[int, RowBlock]]:
+        """Stretch by stretch."""
+        return [(i, block) for i, blocks in enumerate(self.blocks) for block in blocks]
+
+
+def count_columns(columns: Columns) -> int:
+    """Returns k of columns that are not zero on all joints."""
+    return next(c.shape[1] for c in columns if c is not None)
+
+
+def to_dense(columns: Columns, j: int, rows: int) -> np.ndarray:
+    """Returns the columns on joint j, (rows, k); zeros where there are none."""
+    here = columns[j]
+    return np.zeros((rows, count_columns(columns))) if here is None else here
+
+
+def build_rows(observation: Observation, reference: SignalReference) -> Rows:
+    """Builds the rows of an observation.
+
+    Args:
+        observation: of the analysis.
+        reference: where effects are linearised.
+    """
+    signals, blocks = list[Signals](), []
+    for part in thin_samples(observation, reference.compiled).stretches:
+        s = part.segment
+        signals.append(Signals(s, part.usable, s.q, s.qd, s.qdd, reference))
+        pairs = zip(part.used.T, part.usable.T, strict=True)
+        filters = (restrict_weights(part.rows.weights, usable)[used] for used, usable in pairs)
+        joint_filters = [_normalise_rows(weights) for weights in filters]
+        blocks.append(_split_blocks(joint_filters, s.samples))
+    counted = list(observation.used.T)
+    return Rows(
+        y=tuple(observation.torque[rows, j] for j, rows in enumerate(counted)),
+        W=build_base_columns(blocks, signals),
+        time=tuple(observation.time[rows] for rows in counted),
+        run=tuple(observation.run[rows] for rows in counted),
+        segment=tuple(observation.segment[rows] for rows in counted),
+        blocks=tuple(blocks),
+        signals=tuple(signals),
+    )
+
+
+def thin_samples(observation: Observation, compiled: "CompiledModel") -> Observation:
+    """Thins the samples of rows: columns are smooth beside the filter of the rows.
+
+    Its Gaussian needs one sample per width.
+    """
+    cutoff = observation.report.processing.parallel_cutoff
+    parts = list[FilteredSegment]()
+    for part in observation.stretches:
+        every = max(1, int(SPREAD / (cutoff * part.segment.step))) if cutoff > 0.0 else 1
+        read = compute_signals(compiled, part.segment)
+        parts.append(part.thin_samples(every, read) if every > 1 else part)
+    return rebuild_observation(compiled, replace(observation, stretches=tuple(parts)))
+
+
+def build_base_columns(
+    blocks: Sequence[Sequence[RowBlock]], signals: Sequence[Signals]
+) -> tuple[np.ndarray, ...]:
+    """Builds the base columns of the motion of some signals, (rows_j, c) by joint."""
+    parts: list[list[np.ndarray]] = [[] for _ in blocks[0][0].filters]
+    for group, s in zip(blocks, signals, strict=True):
+        for block in group:
+            values = s.compute_base_regressor(block.window)
+            for j, weights in enumerate(block.filters):
+                parts[j].append(weights @ values[:, j])
+    return tuple(np.concatenate(group) for group in parts)
+
+
+def _split_blocks(filters: Sequence[csr_array], samples: int) -> tuple[RowBlock, ...]:
+    """Of one stretch: the rows whose first sample lies in one window, for one after the other."""
+    starts = np.arange(0, samples, THRESHOLDS.sample_window)
+    edges = []
+    for weights in filters:
+        first = weights.indices[weights.indptr[:-1]]
+        edges.append([*np.searchsorted(first, starts).tolist(), len(first)])
+    row_blocks = []
+    for start, *ends in zip(starts.tolist(), *(pairwise(bounds) for bounds in edges), strict=True):
+        parts = [weights[slice(*bounds)] for weights, bounds in zip(filters, ends, strict=True)]
+        stop = max(int(part.indices.max(initial=start)) for part in parts) + 1
+        made = [
+            csr_array(
+                (p.data, *map(np.int32, (p.indices - start, p.indptr))),
+                shape=(p.shape[0], stop - start),
+            )
+            for p in parts
+        ]
+        row_blocks.append(RowBlock(slice(start, stop), tuple(made)))
+    return tuple(row_blocks)
+
+
+def _normalise_rows(weights: csr_array) -> csr_array:
+    """Each row divided by its sum."""
+    total = weights @ np.ones(weights.shape[1])
+    share = np.repeat(1.0 / np.where(total > 0.0, total, 1.0), np.diff(weights.indptr))
+    return csr_array((weights.data * share, weights.indices, weights.indptr), shape=weights.shape)

@@ -1,39 +1,31 @@
 """Which physical effect is missing: from a model and logs to a diagnosis."""
 
-import dataclasses
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from modeler.core.errors import DataError
-from modeler.diagnosis.assemble import BandSearch, assemble_diagnosis, evaluate_search
-from modeler.diagnosis.candidates import StatedEffects
-from modeler.diagnosis.cross_checks import (
+from modeler.diagnosis.candidates import StatedEffects, thin_samples
+from modeler.diagnosis.equations import discover_equations
+from modeler.diagnosis.events import compute_burst_ratio, find_contact_window, fit_push_torque
+from modeler.diagnosis.findings import (
+    BandSearch,
     CrossCheckData,
-    ParameterChange,
+    assemble_diagnosis,
     cross_check_effects,
+    evaluate_search,
     find_changed_parameters,
 )
-from modeler.diagnosis.data_checks import exclude_friction, find_faults
-from modeler.diagnosis.effect_columns import thin_samples
-from modeler.diagnosis.events import (
-    BURST,
-    MARGIN,
-    PushWindow,
-    compute_burst_ratio,
-    find_contact_window,
-    fit_push_torque,
-)
-from modeler.diagnosis.generate import generate_candidates
-from modeler.diagnosis.judge import make_veto
-from modeler.diagnosis.plausible import find_gravity_confounders
-from modeler.diagnosis.proposals import discover_equations
-from modeler.diagnosis.result import Diagnosis
-from modeler.diagnosis.search import MOST, Search, SearchStep, search_effects
+from modeler.diagnosis.generation import estimate_logger_shift, generate_candidates
+from modeler.diagnosis.messages import exclude_friction, find_faults
+from modeler.diagnosis.plausibility import find_gravity_confounders
+from modeler.diagnosis.result import Diagnosis, ParameterChange, PushWindow
+from modeler.diagnosis.scoring import make_veto
+from modeler.diagnosis.search import Search, SearchStep, search_effects
 from modeler.diagnosis.state import (
-    BAND,
     SearchData,
     analyse_logs,
     build_state,
@@ -43,7 +35,7 @@ from modeler.diagnosis.state import (
     observe_in_band,
     observe_logs,
 )
-from modeler.diagnosis.timing import estimate_logger_shift
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, EffectTarget, Requirement, find_effect
 from modeler.estimation import IdentifiedModel, compute_relative_errors
 from modeler.regression import Log, LogRepair, Observation, build_observation, prepare_logs
@@ -51,14 +43,8 @@ from modeler.regression import Log, LogRepair, Observation, build_observation, p
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
 
-CHANGED = 1.3
-"""Ratio of the residual variances with kept and with refitted parameters from which on the robot
-has changed since the fit."""
 
 _READ, _SEARCHED, _NAMED = 0.05, 0.7, 0.75  # shares of the work when these are done
-
-
-_STRIDE = 0.04  # of what is left of a stage
 
 
 class Progress:
@@ -75,25 +61,30 @@ class Progress:
         self._tell(0.0)
 
     def begin_stage(self, end: float) -> None:
-        """What comes next ends at that share; nothing changes if it is the same stage again."""
+        """Begins a stage that ends at that share; a stage that has begun goes on."""
         if end > self._end:
             self._share, self._end = self._end, end
         self._tell(self._share)
 
     def advance(self) -> None:
-        """A piece of work is done: nearer to the end of the stage, never there."""
-        self._share += _STRIDE * (self._end - self._share)
+        """Advances towards the end of the stage, never to it."""
+        self._share += THRESHOLDS.progress_step * (self._end - self._share)
         self._tell(self._share)
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # small matrices: a second thread only waits
 def diagnose(
-    model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log],
-    holdout: Sequence[Log] = (), without: Sequence[str] = (), most: int = MOST,
-    progress: Callable[[float], None] | None = None, known: StatedEffects | None = None,
+    model: IdentifiedModel,
+    compiled: "CompiledModel",
+    logs: Sequence[Log],
+    holdout: Sequence[Log] = (),
+    without: Sequence[str] = (),
+    most: int = THRESHOLDS.max_effects,
+    progress: Callable[[float], None] | None = None,
+    known: StatedEffects | None = None,
     equations: bool = False,
-) -> Diagnosis:  # fmt: skip
-    """The effects that the model lacks on these logs, with what they would gain.
+) -> Diagnosis:
+    """Finds the effects that the model lacks on these logs, and what each would gain.
 
     Args:
         model: fitted.
@@ -118,19 +109,16 @@ def diagnose(
     observation = analyse_logs(compiled, logs, model.processing, prepared=prepared, repair=repair)
     del prepared
     faults = find_faults(model, compiled, observation)
-    observation = thin_samples(
-        observation, compiled
-    )  # all samples, and all columns of a log, are there but once
-    data = SearchData(
-        compiled, observation, find_fixed_parameters(model, compiled, logs, observation), known
-    )
+    observation = thin_samples(observation, compiled)  # all samples are in memory but once
+    fixed = find_fixed_parameters(model, compiled, logs, observation)
+    data = SearchData(compiled, observation, fixed, known)
     if (fewer := exclude_friction(data, model.beta)) is not None:
-        data = dataclasses.replace(data, stated_effects=fewer)
+        data = replace(data, stated_effects=fewer)
     other = None
     if holdout:
         held = observe_in_band(compiled, holdout, observation.report.processing)
         faults += find_faults(model, compiled, held, "held out: ")
-        other = dataclasses.replace(data, observation=thin_samples(held, compiled))
+        other = replace(data, observation=thin_samples(held, compiled))
         del held
     beyond = _find_other_band(data, model, repair)
     repair = LogRepair(logs, compiled.spec)  # pieces and spectra have served
@@ -141,25 +129,22 @@ def diagnose(
     ) -> Search:
         stages.begin_stage(_SEARCHED)
         most = limit - len(named_steps) if limit else 0
-        return search_effects(
-            data, model.beta, without, most, make_veto(other), stages.advance, named_steps
-        )
+        veto = make_veto(other)
+        return search_effects(data, model.beta, without, most, veto, stages.advance, named_steps)
 
     def search_bands() -> list[BandSearch]:
-        """The search in the band of the diagnosis, and that in a wider one, with what is named."""
+        """Searches the band of the diagnosis, then a wider one with all that is named."""
         made: list[BandSearch] = []
         far = beyond if beyond is not None and get_cutoff(beyond) > get_cutoff(data) else None
-        for band_data, held in (
-            (data, other),
-            (far, None if far is None else _prepare_holdout(far, holdout)),
-        ):
+        far_held_out = None if far is None else _prepare_holdout(far, holdout)
+        for band_data, held in ((data, other), (far, far_held_out)):
             if band_data is None:
                 continue
             band_search = run_search(band_data, held, made[0].named_steps if made else ())
             second = data if made else beyond
-            check_data = (
-                [] if held is None else [CrossCheckData("in the held-out logs", held, False)]
-            )
+            check_data = list[CrossCheckData]()
+            if held is not None:
+                check_data.append(CrossCheckData("in the held-out logs", held, False))
             if second is not None:
                 check_data.append(CrossCheckData(f"up to {get_cutoff(second):.2g} Hz", second))
             checks = cross_check_effects(band_search, check_data, stages.advance)
@@ -172,11 +157,8 @@ def diagnose(
         data, other = aligned, _prepare_holdout(aligned, holdout)
         beyond = _find_other_band(data, model, repair)
         band_searches = search_bands()
-    may_push = [
-        e
-        for e in data.stated_effects.catalogue
-        if e.acts is EffectTarget.WINDOW and e.id not in without
-    ]
+    pushes = [e for e in data.stated_effects.catalogue if e.acts is EffectTarget.WINDOW]
+    may_push = [effect for effect in pushes if effect.id not in without]
     window = _detect_push(band_searches[-1].search) if may_push else None
     if window is not None:
         data = _mask_window(data, window)
@@ -185,42 +167,35 @@ def diagnose(
     stages.begin_stage(_NAMED if equations else 1.0)
     changed_parameters = tuple[ParameterChange, ...]()
     if other is not None and limit:
-        changed_parameters = find_changed_parameters(
-            model, band_searches[0].search, other, band_searches[0].held_out_residuals[-1], holdout
-        )
+        first, left = band_searches[0].search, band_searches[0].held_out_residuals[-1]
+        changed_parameters = find_changed_parameters(model, first, other, left, holdout)
     diagnosis = assemble_diagnosis(model, band_searches, window, faults, changed_parameters)
     if equations and limit:
         stages.begin_stage(1.0)
         facts = [(f.effect, f.joint) for f in diagnosis.effects if f.status == "fact"]
-        discoveries = discover_equations(
-            band_searches[0].search, facts, band_searches[0].other, stages.advance
-        )
-        diagnosis = dataclasses.replace(diagnosis, discoveries=discoveries)
+        band = band_searches[0]
+        discoveries = discover_equations(band.search, facts, band.other, stages.advance)
+        diagnosis = replace(diagnosis, discoveries=discoveries)
     if progress is not None:
         progress(1.0)
 
     line = describe_bands(model.processing, data.observation.report.processing)
     line += _describe_gravity_confounders(diagnosis, band_searches[0].search, without)
     sentences = (*diagnosis.sentences, *line)
-    return dataclasses.replace(diagnosis, sentences=sentences, errors=errors)
-
-
-WIDER = 1.3
-"""Ratio of two cut-offs from which on one shows what the other does not."""
+    return replace(diagnosis, sentences=sentences, errors=errors)
 
 
 def _find_other_band(
     data: SearchData, model: IdentifiedModel, repair: LogRepair
 ) -> SearchData | None:
     """The same logs in a wider band, or else in that of the motion; None if none differs."""
-    for band in (0.8 * BAND, 0.0):
+    for band in (0.8 * THRESHOLDS.max_band, 0.0):
         prepared = choose_band(data.compiled, repair.logs, model.processing, band, repair=repair)
         other = prepared.processing.parallel_cutoff or 0.0
-        if max(other / get_cutoff(data), get_cutoff(data) / other) > WIDER:
-            observation = thin_samples(
-                observe_logs(data.compiled, repair.logs, prepared), data.compiled
-            )
-            return dataclasses.replace(data, observation=observation)
+        if max(other / get_cutoff(data), get_cutoff(data) / other) > THRESHOLDS.min_cutoff_ratio:
+            observation = observe_logs(data.compiled, repair.logs, prepared)
+            observation = thin_samples(observation, data.compiled)
+            return replace(data, observation=observation)
     return None
 
 
@@ -253,16 +228,14 @@ def _align_logger_delay(
 ) -> SearchData | None:
     """The data without a delay that is a convention of the logger; None if there is none."""
     delays = [j for j in search.ranked if j.candidate.is_delay and not j.is_confirmed]
-    shift = (
-        estimate_logger_shift(search.start, delays[0].candidate, delays[0].values)
-        if delays
-        else 0.0
-    )
+    if not delays:
+        return None
+    shift = estimate_logger_shift(search.start, delays[0].candidate, delays[0].values)
     if shift == 0.0:
         return None
-    processing = dataclasses.replace(model.processing, delay=model.processing.delay + shift)
+    processing = replace(model.processing, delay=model.processing.delay + shift)
     observation = analyse_logs(data.compiled, repair.logs, processing, repair=repair)
-    return dataclasses.replace(data, observation=thin_samples(observation, data.compiled))
+    return replace(data, observation=thin_samples(observation, data.compiled))
 
 
 def _resolve_ids(without: Sequence[str], catalogue: Sequence[Effect]) -> tuple[str, ...]:
@@ -286,29 +259,28 @@ def _prepare_holdout(data: SearchData, holdout: Sequence[Log]) -> SearchData | N
         return None
     processing = data.observation.report.processing
     observation = observe_in_band(data.compiled, holdout, processing)
-    return dataclasses.replace(data, observation=thin_samples(observation, data.compiled))
+    return replace(data, observation=thin_samples(observation, data.compiled))
 
 
 def find_fixed_parameters(
     model: IdentifiedModel, compiled: "CompiledModel", logs: Sequence[Log], observation: Observation
 ) -> np.ndarray | None:
-    """The model's parameters if these logs are of a robot that has changed since; else None."""
+    """Returns the model's parameters if the robot has changed since its fit; else None."""
     if any(used.has_rows_of(log) for used in model.logs for log in logs):
         return None
     free = build_state(SearchData(compiled, observation), (), model.beta)
     fitted = float(free.rank_columns([]).before.sum())
-    fixed_cost = sum(
-        float(np.sum(((y - w @ model.beta) / s) ** 2))
-        for y, w, s in zip(free.rows.y, free.rows.W, free.sigma, strict=True)
-    )
-    return model.beta if fixed_cost > CHANGED * fitted else None
+    rows = zip(free.rows.y, free.rows.W, free.sigma, strict=True)
+    fixed_cost = sum(float(np.sum(((y - w @ model.beta) / s) ** 2)) for y, w, s in rows)
+    return model.beta if fixed_cost > THRESHOLDS.min_refit_variance_ratio * fitted else None
 
 
 def _detect_push(search: Search) -> PushWindow | None:
     """When something pushed; with its first part left out of the fit, more of it may show."""
     end, data = search.end, search.start.data
     # a gear may have so much play that one of its knocks looks like a push
-    rattles = any(compute_burst_ratio(end, j) > BURST for j in range(end.rows.joint_count))
+    most, joints = THRESHOLDS.min_burst_ratio, range(end.rows.joint_count)
+    rattles = any(compute_burst_ratio(end, j) > most for j in joints)
     window = more = None if rattles or not search.last.ranked else find_contact_window(end)
     if window is None:
         return None
@@ -316,15 +288,15 @@ def _detect_push(search: Search) -> PushWindow | None:
         window = more
         later = find_contact_window(build_state(_mask_window(data, window), end.picks, end.beta))
         more = window.merge_part(later) if later is not None else None
-    return fit_push_torque(
-        window, build_state(_mask_window(data, window), end.picks, end.beta), data
-    )
+    masked = build_state(_mask_window(data, window), end.picks, end.beta)
+    return fit_push_torque(window, masked, data)
 
 
 def _mask_window(data: SearchData, window: PushWindow) -> SearchData:
     """The data without the rows of a window, and a little around it."""
     observation = data.observation
-    hit = (observation.run == window.log) & (observation.time > window.start - MARGIN)
-    hit &= observation.time < window.end + MARGIN
+    first = window.start - THRESHOLDS.push_margin
+    hit = (observation.run == window.log) & (observation.time > first)
+    hit &= observation.time < window.end + THRESHOLDS.push_margin
     rest = observation.select_rows(observation.used & ~hit[:, None])
-    return dataclasses.replace(data, observation=rest)
+    return replace(data, observation=rest)

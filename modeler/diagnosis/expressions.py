@@ -18,13 +18,11 @@ from modeler.core.brief import ShortRepr
 from modeler.core.manifest import ModuleSpec
 from modeler.core.toml_cells import TomlCell
 from modeler.diagnosis.candidates import Candidate, JointScale
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, NonlinearParameter, read_definition
 
 _SYMBOL = re.compile(r"sign\(\w+\)|[A-Za-z_]\w*|[0-9.]+")  # a direction is one
 _SPEEDS = {"v", "a"}  # what equations of robots with loops may read
-_MOST_SHAPES = 4
-_LARGER = 1.37
-_ROUND = 6  # digits of an exponent
 
 
 @dataclass(frozen=True)
@@ -32,9 +30,9 @@ class Factor(ShortRepr):
     """A factor with values of its shapes.
 
     Attributes:
-        factor: as an effect would be.
+        effect: as an effect would be.
         scale: of the joint that it reads.
-        shapes: SI.
+        nonlinear_parameters: SI.
     """
 
     effect: Effect
@@ -43,29 +41,24 @@ class Factor(ShortRepr):
 
     @property
     def equations(self) -> list[str]:
-        """Its equations: one, or the sine and the cosine of a wave."""
+        """Returns its equations: one, or the sine and the cosine of a wave."""
         return [column.equation.text for column in self.effect.columns]
 
     @property
     def lag_text(self) -> str:
-        """What z follows; empty without a lag."""
+        """Returns what z follows; empty without a lag."""
         memory = self.effect.forms[0].internal_state
-        return (
-            memory.lagged_input.text
-            if memory is not None and memory.lagged_input is not None
-            else ""
-        )
+        source = None if memory is None else memory.lagged_input
+        return "" if source is None else source.text
 
     @property
     def has_memory(self) -> bool:
-        """True if it has the inner state z: an effect has one."""
+        """Tells whether it has the inner state z; an effect has one at most."""
         return self.effect.forms[0].internal_state is not None
 
     def compute_step_sizes(self) -> list[float]:
-        """What is a large change of each of its shapes."""
-        return [
-            self._compute_step_size(shape) for shape in self.effect.forms[0].nonlinear_parameters
-        ]
+        """Computes a large change of each of its parameters."""
+        return list(map(self._compute_step_size, self.effect.forms[0].nonlinear_parameters))
 
     def _compute_step_size(self, shape: NonlinearParameter) -> float:
         if shape.scale == "waves":
@@ -75,12 +68,12 @@ class Factor(ShortRepr):
         return self.scale.range * (shape.grid[1] - shape.grid[0])
 
     def list_first_values(self, shape: NonlinearParameter) -> list[float]:
-        """The value found between two neighbours, six digits: what a definition tries first."""
+        """Lists the value and its two neighbours, six digits, as a definition tries them."""
         value, size = self.nonlinear_parameters[shape.name], self._compute_step_size(shape)
         return [float(f"{x:.6g}") for x in (value - size, value, value + size)]
 
     def clip_parameters(self, shapes: Mapping[str, float]) -> "Factor":
-        """The same with other values of its shapes, as far as they make sense."""
+        """Returns the same with other values of its parameters, within their limits."""
         clipped_values = dict(shapes)
         for shape in self.effect.forms[0].nonlinear_parameters:
             if shape.scale != "waves":
@@ -101,7 +94,7 @@ class Formula(ShortRepr):
 
     @cached_property
     def named_factors(self) -> list[tuple[Factor, dict[str, str]]]:
-        """Its parts, and the names of their shapes in it: of two vs the second is vs2."""
+        """Returns its factors with the names of their parameters: of two vs the second is vs2."""
         entries, taken = [], list[str]()
         for part in itertools.chain(*self.terms):
             taken += part.nonlinear_parameters
@@ -111,13 +104,13 @@ class Formula(ShortRepr):
 
     @cached_property
     def nonlinear_parameters(self) -> dict[str, float]:
-        """Values by their names in it."""
-        return {names[key]: value for part, names in self.named_factors
-                for key, value in part.nonlinear_parameters.items()}  # fmt: skip
+        """Returns values by their names in it."""
+        pairs = ((names, part.nonlinear_parameters) for part, names in self.named_factors)
+        return {names[key]: value for names, values in pairs for key, value in values.items()}
 
     @cached_property
     def equations(self) -> list[str]:
-        """Its equations."""
+        """Returns its equations."""
         equations, every = list[str](), iter(self.named_factors)
         for term in self.terms:
             named = []
@@ -131,45 +124,43 @@ class Formula(ShortRepr):
 
     @property
     def lag_text(self) -> str:
-        """What its inner state follows; empty without a lag."""
+        """Returns what its inner state follows; empty without a lag."""
         return "".join(part.lag_text for part, _ in self.named_factors)
 
     @property
     def text(self) -> str:
-        """Its columns."""
+        """Returns its columns as text."""
         return " + ".join([*self.equations, *([f"z of {self.lag_text}"] if self.lag_text else [])])
 
     @property
     def title(self) -> str:
-        """In plain words."""
+        """Returns its title in words."""
         return " and ".join(" times ".join(p.effect.title for p in term) for term in self.terms)
 
     @property
     def symbol_count(self) -> int:
-        """Names and numbers in it, of what z stands for too, and free numbers: what has a price."""
+        """Counts names, numbers and free numbers, which have a price."""
         texts = [*self.equations, *([self.lag_text] if self.lag_text else [])]
-        texts += [
-            key
-            for part, _ in self.named_factors
-            if part.has_memory
-            for key in part.nonlinear_parameters
-        ]
+        for part, _ in self.named_factors:
+            texts += part.nonlinear_parameters if part.has_memory else ()
         return len(self.nonlinear_parameters) + sum(map(count_symbols, texts))
 
     @property
     def is_definable(self) -> bool:
-        """True if a definition can hold it: one inner state, few shapes."""
-        few = len(self.nonlinear_parameters) <= _MOST_SHAPES
+        """Tells whether a definition can hold it: one inner state, few parameters."""
+        few = len(self.nonlinear_parameters) <= THRESHOLDS.max_formula_parameters
         return few and sum(part.has_memory for part, _ in self.named_factors) < 2
 
-    def replace_nonlinear_parameters(self, shapes: Mapping[str, float]) -> "Formula":
-        """The same at other values of its shapes, by their names in it."""
-        every = iter(part.clip_parameters({key: shapes[name] for key, name in names.items()})
-                     for part, names in self.named_factors)  # fmt: skip
+    def set_parameters(self, shapes: Mapping[str, float]) -> "Formula":
+        """Returns the same with other values of its parameters."""
+        every = iter(
+            part.clip_parameters({key: shapes[name] for key, name in names.items()})
+            for part, names in self.named_factors
+        )
         return Formula(tuple(tuple(next(every) for _ in term) for term in self.terms))
 
     def build_definition(self, prefixes: Sequence[str]) -> dict[str, Any]:
-        """Its table of `[own_effects]` but for title and units."""
+        """Builds its table of `[own_effects]` but for title and units."""
         table: dict[str, Any] = {"columns": dict(zip(prefixes, self.equations, strict=False))}
         if self.lag_text:
             table["lag"] = self.lag_text
@@ -182,14 +173,14 @@ class Formula(ShortRepr):
         return table
 
     def build_candidate(self, names: Sequence[str], j: int) -> Candidate:
-        """It as an effect of joint j of those with the names; its id is its equation."""
+        """Builds the effect of joint j; its id is its equation."""
         # whether it is finite everywhere is asked of those that are offered: it takes long
         place = TomlCell("discover", value=self.build_definition(["Xa", "Xb", "Xc", "Xd"]))
         effect = read_definition(self.text, place, {}, False, names)
         return Candidate(effect, effect.forms[0], names[j], j, dict(self.nonlinear_parameters))
 
     def find_nonlinear_units(self, linear: bool) -> dict[str, str]:
-        """Units of its shapes, on a prismatic joint or on one that turns."""
+        """Finds the units of its parameters on a prismatic or revolute joint."""
         stroke_units = dict.fromkeys(("stroke", "stretch"), ("rad", "m")[linear])
         return {
             names[shape.name]: stroke_units.get(shape.scale) or shape.get_unit(linear)
@@ -199,12 +190,12 @@ class Formula(ShortRepr):
 
 
 def count_symbols(text: str) -> int:
-    """Names, directions and numbers in a column, and its parameter."""
+    """Counts names, directions and numbers in a column, and its parameter."""
     return 1 + len(_SYMBOL.findall(text))
 
 
 def scale_entry(scale: JointScale, shape: NonlinearParameter, entry: float) -> float:
-    """Of a shape from an entry of its grid or limits, SI, also in parts of a stroke."""
+    """Converts an entry of a grid or a limit to SI, also one in parts of a stroke."""
     if shape.scale in ("stroke", "stretch"):
         return (shape.scale == "stroke") * scale.middle + scale.range * entry
     return scale.scale_value(shape, entry)
@@ -216,7 +207,7 @@ def scale_entry(scale: JointScale, shape: NonlinearParameter, entry: float) -> f
 def list_factors(
     spec: ModuleSpec, scales: Sequence[JointScale], j: int, warm: bool, waves: Sequence[float]
 ) -> Iterator[list[Factor]]:
-    """The parts that every factor gives on joint j at the first values of its shapes.
+    """Lists the factors on joint j at the first values of their parameters.
 
     Args:
         spec: the robot.
@@ -231,29 +222,20 @@ def list_factors(
         others = name.startswith("other_")
         for k in [k for k in joints if k != j] if others else [j]:
             entry = _assign_joint(table, joints[k]) if others else table
-            factor = read_definition(
-                name, TomlCell(file.name, name, entry), {}, False, [*joints.values()]
-            )
+            cell = TomlCell(file.name, name, entry)
+            factor = read_definition(name, cell, {}, False, [*joints.values()])
             (form, *_), scale = factor.forms, scales[k]
             read = form.names
-            loops = spec.closure is not None and (
-                not read <= _SPEEDS or form.internal_state is not None
-            )
+            more = not read <= _SPEEDS or form.internal_state is not None
+            loops = spec.closure is not None and more
             if loops or (factor.turns and not scale.angular) or ("T" in read and not warm):
                 continue
-            grids = [
-                [scale_entry(scale, shape, x) for x in shape.grid] or waves
-                for shape in form.nonlinear_parameters
-            ]
+            shapes = form.nonlinear_parameters
+            grids = [[scale_entry(scale, s, x) for x in s.grid] or waves for s in shapes]
             values = itertools.product(*grids)
-            yield [
-                Factor(
-                    factor,
-                    scale,
-                    dict(zip((s.name for s in form.nonlinear_parameters), entry, strict=True)),
-                )
-                for entry in values
-            ]
+            names = [shape.name for shape in shapes]
+            named = (dict(zip(names, value, strict=True)) for value in values)
+            yield [Factor(factor, scale, value) for value in named]
 
 
 def _assign_joint(table: Mapping[str, Any], name: str) -> dict[str, Any]:
@@ -270,7 +252,7 @@ _UNITS = ("N", "m", "s", "rad", "K")
 def derive_parameter_unit(
     spec: ModuleSpec, j: int, candidate: Candidate, column: int, shapes: Mapping[str, str]
 ) -> str:
-    """The unit of the parameter of a column, torque over column: "N*m*s/rad".
+    """Derives the unit of the parameter of a column, torque over column: "N*m*s/rad".
 
     Args:
         spec: the robot.
@@ -282,34 +264,43 @@ def derive_parameter_unit(
     linear = spec.joints[j].unit == "m"
     effort, place = ("N", "m") if linear else ("N*m", "rad")
     equation, memory = candidate.form.columns[column].equation, candidate.form.internal_state
-    units = {"q": place, "v": f"{place}/s", "a": f"{place}/s^2", "load": effort, "static": effort,
-             "t": "s", "since": "s", "T": "K", **shapes}  # fmt: skip
+    units = {
+        "q": place,
+        "v": f"{place}/s",
+        "a": f"{place}/s^2",
+        "load": effort,
+        "static": effort,
+        "t": "s",
+        "since": "s",
+        "T": "K",
+        **shapes,
+    }
     for joint in spec.joints:
         joint_unit = "m" if joint.unit == "m" else "rad"
         units |= {f"q{joint.name}": joint_unit, f"v{joint.name}": f"{joint_unit}/s"}
-    values = {name: 0.7 + 0.01 * i for i, name in enumerate([*units, "z"])} | dict(
-        candidate.nonlinear_parameters
-    )
+    values = {name: 0.7 + 0.01 * i for i, name in enumerate([*units, "z"])}
+    values |= candidate.nonlinear_parameters
     exponents = parse_unit(effort)
     for unit in _UNITS:
         sizes = []
-        for scale in (1.0, _LARGER):
-            now = {name: value * scale ** _find_exponent(units.get(name, "1"), unit, equation.text)
-                   for name, value in values.items()}  # fmt: skip
+        for scale in (1.0, THRESHOLDS.unit_scale):
+            now = {}
+            for name, value in values.items():
+                exponent = _find_exponent(units.get(name, "1"), unit, equation.text)
+                now[name] = value * scale**exponent
             if memory is not None and memory.lagged_input is not None:
                 now["z"] = memory.lagged_input.evaluate(now)
             sizes.append(equation.evaluate(now))
-        exponents[unit] = exponents.get(unit, 0.0) - math.log(sizes[1] / sizes[0]) / math.log(
-            _LARGER
-        )
-    every = {unit: round(power, _ROUND) for unit, power in exponents.items()}
+        exponent = math.log(sizes[1] / sizes[0]) / math.log(THRESHOLDS.unit_scale)
+        exponents[unit] = exponents.get(unit, 0.0) - exponent
+    every = {unit: round(power, THRESHOLDS.exponent_digits) for unit, power in exponents.items()}
     above = [_format_power(unit, power) for unit, power in every.items() if power > 0.0]
     below = [_format_power(unit, -power) for unit, power in every.items() if power < 0.0]
     return "/".join(["*".join(above) or "1", *below])
 
 
 def parse_unit(unit: str) -> dict[str, float]:
-    """Exponents of "N*m/s^2"."""
+    """Parses the exponents of "N*m/s^2"."""
     exponents, sign = dict[str, float](), 1.0
     for mark, name, power in re.findall(r"([*/]?)([A-Za-z]+)\^?([0-9.]*)", unit.replace(" ", "*")):
         sign = -1.0 if mark == "/" else 1.0

@@ -9,10 +9,9 @@ Marx 1996). The smoothness s, and the coordinates where none are asked for, are 
 least on folds of time that were not fitted. A little r gives to physics what both could explain.
 """
 
-import dataclasses
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from typing import Any
 
@@ -25,13 +24,11 @@ from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, RobotError
 from modeler.core.expression import Law
 from modeler.core.toml_cells import TomlCell
-from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.effect_columns import evaluate_equations
-from modeler.diagnosis.judge import FELT, GATE, NEARLY
-from modeler.diagnosis.orders import compute_joint_order_spectrum
-from modeler.diagnosis.score import STANDARD_ERRORS, compute_t_ratio
+from modeler.diagnosis.candidates import Candidate, evaluate_equations
+from modeler.diagnosis.generation import compute_joint_order_spectrum, smooth_rows
+from modeler.diagnosis.scoring import compute_t_ratio
 from modeler.diagnosis.state import State
-from modeler.diagnosis.timing import smooth_rows
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import TURN, read_definition
 from modeler.numerics.splines import (
     build_flat_ends,
@@ -43,23 +40,14 @@ from modeler.numerics.splines import (
 CELLS = (40, 14)
 """Of one axis alone, and of each of two."""
 
-SURE = 3.0
-"""Least fall of the error, in standard errors, where a law was not fitted; it is judged again."""
 
-_WAVE = 8  # cells for each wave that stands out in the residual
-_FINE, _MOST_CELLS, _FEW = 100, 240, 5
 _TRAVELS = (0.003, 0.03)
 """After a reversal, of the range of motion: over which z turns, and what is a reversal at all."""
 
 _LAGS = (0.1, 0.4, 1.6)  # s
-_FACTOR = 1.1  # steps of these that are not worth a look
 
 _SMOOTH = tuple(10.0**power for power in range(-5, 4))
 _FIRST = (1e-2, 1.0)  # smoothness in which coordinates are compared
-_RIDGE = 1e-4  # of the mean square of a spline
-_ENDS = 1e-3  # share of the samples beyond either end
-_DIGITS = 6
-_NEAR = 4  # coordinates that are looked at closely
 
 
 @dataclass(frozen=True)
@@ -80,28 +68,28 @@ class LawCoordinates(ShortRepr):
 
     @property
     def equation(self) -> str:
-        """As it stands in the column of the effect."""
+        """Returns the column of the effect."""
         law = f"law({', '.join(self.arguments)})"
         return f"{self.factor}*{law}" if self.factor else law
 
     @property
     def description(self) -> str:
-        """For people: "abs(v) and q, odd in v"."""
+        """Describes the arguments: "abs(v) and q, times sign(v)"."""
         return " and ".join(self.arguments) + (", times " + self.factor if self.factor else "")
 
     @property
     def cell_counts(self) -> tuple[int, ...]:
-        """Cells along each axis."""
+        """Returns the cells along each axis."""
         return self.cells or (CELLS[len(self.arguments) - 1],) * len(self.arguments)
 
     def scale_parameter(self, name: str, factor: float) -> "LawCoordinates":
-        """The same with another value of a shape of what it reads."""
+        """Returns the same with a parameter of what it reads multiplied."""
         (value,) = self.further["shapes"][name]
         shapes = self.further["shapes"] | {name: [float(f"{value * factor:.4g}")]}
-        return dataclasses.replace(self, further=dict(self.further) | {"shapes": shapes})
+        return replace(self, further=dict(self.further) | {"shapes": shapes})
 
     def evaluate_samples(self, state: State, j: int) -> list[np.ndarray]:
-        """(samples, arguments + 1) by stretch: the arguments, then the factor.
+        """Evaluates arguments, then the factor, (samples, arguments + 1) by segment.
 
         Of the smooth motion: what the noise of positions makes of the columns of the model is in
         the residual, and the measured motion would seem to predict it.
@@ -111,9 +99,8 @@ class LawCoordinates(ShortRepr):
         """
         columns = {f"x{chr(97 + k)}": text for k, text in enumerate(self.arguments)}
         table = {"columns": columns | {"by": self.factor or "1"}, **self.further}
-        effect = read_definition(
-            "law", TomlCell("law").with_value(table), {}, joints=state.joint_names
-        )
+        cell = TomlCell("law").with_value(table)
+        effect = read_definition("law", cell, {}, joints=state.joint_names)
         shapes = {shape.name: shape.grid[0] for shape in effect.forms[0].nonlinear_parameters}
         candidate = Candidate(effect, effect.forms[0], state.joint_names[j], j, shapes)
         return [evaluate_equations([candidate], signals) for signals in smooth_rows(state).signals]
@@ -128,26 +115,28 @@ class LearnedLaw(ShortRepr):
         law: the table; the rms of its column over the rows is 1.
         size: N m or N, times which it is the torque.
         torque: (rows_j,) N m or N, with the columns of the model fitted beside it.
-        drop: (blocks,) fall of the squared residuals, weighted, on folds that were not fitted.
-        sure: fall of the error over its standard error, paired over blocks (see
+        reductions: (blocks,) fall of the squared residuals, weighted, on folds not fitted.
+        t_ratio: fall of the error over its standard error, paired over blocks (see
             `score.score_change`).
-        gain: fall of the squared residual, as a share of that of its joint.
-        felt: rms of what it explains over the rms torque of its joint.
+        variance_reduction: fall of the squared residual, as a share of that of its joint.
+        torque_share: rms of what it explains over the rms torque of its joint.
     """
 
     coordinates: LawCoordinates
     law: Law
     size: float
     torque: np.ndarray
-    block_reductions: np.ndarray
+    reductions: np.ndarray
     t_ratio: float
     variance_reduction: float
     torque_share: float
 
     @property
     def is_significant(self) -> bool:
-        """True if it is worth a place in a model."""
-        return self.variance_reduction > GATE and self.t_ratio > SURE and self.torque_share > FELT
+        """Tells whether it is significant."""
+        large = self.variance_reduction > THRESHOLDS.min_variance_reduction
+        large = large and self.torque_share > THRESHOLDS.min_torque_share
+        return large and self.t_ratio > THRESHOLDS.min_law_t_ratio
 
 
 @dataclass(frozen=True)
@@ -166,11 +155,11 @@ class LawRequest(ShortRepr):
 
     @property
     def description(self) -> str:
-        """Behind "law": " of q and v"; empty where nothing is asked for."""
+        """Describes the request behind "law": " of q and v"; empty without one."""
         return f" of {' and '.join(self.of)}" if self.of else ""
 
     def list_coordinates(self, state: State, j: int) -> list[LawCoordinates]:
-        """To choose from.
+        """Lists the coordinates to choose from.
 
         Raises:
             DataError: more than two variables, or such as laws cannot read in loops.
@@ -190,10 +179,8 @@ class LawRequest(ShortRepr):
             arguments, factor = tuple("abs(v)" if x == "v" else x for x in self.of), "sign(v)"
         if "z" not in self.of:
             return [LawCoordinates(arguments, factor)]
-        return [
-            LawCoordinates(arguments, factor, further)
-            for further in _list_bristle_definitions(state, j)
-        ]
+        definitions = _list_bristle_definitions(state, j)
+        return [LawCoordinates(arguments, factor, further) for further in definitions]
 
 
 ANY_LAW = LawRequest()
@@ -204,18 +191,18 @@ LEARNED = "learned"
 
 
 def make_effect_id(stem: str, joint: str, taken: Collection[str]) -> str:
-    """Id of an effect of a joint that no other has: learned_2."""
+    """Makes an id of an effect of a joint that no other has: learned_2."""
     return choose_free_name(f"{stem}_{re.sub(r'[^a-z0-9]', '_', joint.lower())}", taken)
 
 
 def choose_free_name(stem: str, taken: Collection[str]) -> str:
-    """The stem, with a letter behind it if it is taken."""
+    """Returns the stem, with a letter behind it if it is taken."""
     names = (stem, *(f"{stem}{letter}" for letter in "bcdefghijklmnopqrstuvwxyz"))
     return next(name for name in names if name not in taken)
 
 
 def learn_law(state: State, j: int, request: LawRequest = ANY_LAW) -> LearnedLaw | None:
-    """The law of joint j that loses least on motion it was not fitted to; None without any.
+    """Learns the law of joint j with the least cross-validated error; None without any.
 
     Args:
         state: what is in the model.
@@ -232,26 +219,15 @@ def learn_law(state: State, j: int, request: LawRequest = ANY_LAW) -> LearnedLaw
         except RobotError as error:
             raise DataError(f"--of {','.join(request.of)}: {error}") from None
         if splines is not None:
-            ranked.append(
-                (
-                    float(
-                        _SplineProblem(state, j, splines)
-                        .fit_smoothness(_FIRST)
-                        .block_reductions.sum()
-                    ),
-                    option,
-                )
-            )
+            fit = _SplineProblem(state, j, splines).fit_smoothness(_FIRST)
+            ranked.append((float(fit.reductions.sum()), option))
     ranked.sort(key=lambda item: -item[0])
-    near = [
-        s for _, option in ranked[:_NEAR] if (s := _build_splines(state, j, option)) is not None
-    ]
+    leading = [option for _, option in ranked[: THRESHOLDS.max_refined_coordinates]]
+    near = [s for c in leading if (s := _build_splines(state, j, c)) is not None]
     if not near:
         return None
-    closely = [
-        (_SplineProblem(state, j, option).fit_smoothness(_SMOOTH, request.rising), option)
-        for option in near
-    ]
+    fits = [_SplineProblem(state, j, s).fit_smoothness(_SMOOTH, request.rising) for s in near]
+    closely = list(zip(fits, near, strict=True))
     fit, splines = _refine_coordinates(state, j, *_select_simplest(closely), request.rising)
     return _build_law(state, j, splines, fit)
 
@@ -262,11 +238,10 @@ def _refine_coordinates(
     """At a travel or a time of what remembers that loses less: steps by factors, ever smaller."""
     for name in splines.coordinates.further.get("shapes", {}):
         factor = 2.0
-        while factor > _FACTOR:
+        while factor > THRESHOLDS.min_refinement_factor:
             for times in (factor, 1.0 / factor):
-                scaled_splines = _build_splines(
-                    state, j, splines.coordinates.scale_parameter(name, times)
-                )
+                scaled = splines.coordinates.scale_parameter(name, times)
+                scaled_splines = _build_splines(state, j, scaled)
                 if scaled_splines is not None:
                     other = _SplineProblem(state, j, scaled_splines).fit_smoothness(_SMOOTH, rising)
                     if other.after.sum() < fit.after.sum():
@@ -278,14 +253,15 @@ def _refine_coordinates(
 
 
 def generate_coordinates(state: State, j: int) -> Iterator[LawCoordinates]:
-    """Those that make sense on a joint: of every quantity alone, and beside v or q.
+    """Generates the coordinates that make sense on a joint.
 
     Odd in v, and not.
     """
     peaks = [] if (spectrum := compute_joint_order_spectrum(state, j)) is None else spectrum.peaks
     turns = state.joint_scales[j].range / (2.0 * np.pi)
-    fine = min(_MOST_CELLS, round(_WAVE * max(peaks, default=0.0) * turns))
-    waves = [0, _FINE] + ([fine] if fine > _FINE else [])
+    fine = round(THRESHOLDS.cells_per_wave * max(peaks, default=0.0) * turns)
+    fine = min(THRESHOLDS.max_cells, fine)
+    waves = [0, THRESHOLDS.fine_cells] + ([fine] if fine > THRESHOLDS.fine_cells else [])
     quantities = _list_quantities(state, j)
     for x, further in quantities:
         for cells in waves if x == "q" else [0]:
@@ -298,7 +274,7 @@ def generate_coordinates(state: State, j: int) -> Iterator[LawCoordinates]:
         if x not in ("q", "v") and not further:
             yield LawCoordinates(("q", x))
         for cells in waves[1:] if x in ("load", "T") else []:
-            yield LawCoordinates(("q", x), cells=(cells, _FEW))
+            yield LawCoordinates(("q", x), cells=(cells, THRESHOLDS.few_cells))
 
 
 def _list_quantities(state: State, j: int) -> list[tuple[str, Mapping[str, Any]]]:
@@ -330,16 +306,14 @@ def _select_simplest(
     fits: Sequence[tuple["_SplineFit", "_SplineBasis"]],
 ) -> tuple["_SplineFit", "_SplineBasis"]:
     """Of those that the data do not tell from the best, the one with the fewest axes."""
-    best = max(fits, key=lambda item: float(item[0].block_reductions.sum()))
-    total = float(best[0].block_reductions.sum())
-    near = [
-        item for item in fits
-        if item is best or (item[0].block_reductions.sum() > NEARLY * total
-                            and compute_t_ratio(item[0].after - best[0].after) <= STANDARD_ERRORS)
-    ]  # fmt: skip
-    return min(
-        near, key=lambda item: (len(item[1].cell_counts), -float(item[0].block_reductions.sum()))
-    )
+    best = max(fits, key=lambda item: float(item[0].reductions.sum()))
+    total = float(best[0].reductions.sum())
+    least, most = THRESHOLDS.parsimony_share * total, THRESHOLDS.max_chance_t
+    near = [item for item in fits if item is best or item[0].reductions.sum() > least]
+    t_ratios = [compute_t_ratio(item[0].after - best[0].after) for item in near]
+    pairs = zip(near, t_ratios, strict=True)
+    near = [item for item, t_ratio in pairs if item is best or t_ratio <= most]
+    return min(near, key=lambda item: (len(item[1].cell_counts), -float(item[0].reductions.sum())))
 
 
 @dataclass(frozen=True, eq=False)
@@ -362,7 +336,7 @@ class _SplineBasis(ShortRepr):
 
     @property
     def cell_counts(self) -> tuple[int, ...]:
-        """Cells along each axis."""
+        """Returns the cells along each axis."""
         return self.coordinates.cell_counts
 
 
@@ -375,7 +349,7 @@ def _build_splines(state: State, j: int, coordinates: LawCoordinates) -> _Spline
         return None
     ends = []
     for x, count in zip(every.T, coordinates.cell_counts, strict=True):
-        low, high = np.quantile(x, [_ENDS, 1.0 - _ENDS])
+        low, high = np.quantile(x, [THRESHOLDS.outlying_share, 1.0 - THRESHOLDS.outlying_share])
         if not high > low:
             return None
         ends.append(extend_axis(float(low), float(high), count))
@@ -388,9 +362,7 @@ def _build_splines(state: State, j: int, coordinates: LawCoordinates) -> _Spline
     rough = [(d.T @ d) for d in (build_second_differences(t) for t in flat)]
     eyes = [eye_array(t.shape[1]) for t in flat]
     total = rough[0] if len(flat) == 1 else kron(rough[0], eyes[1]) + kron(eyes[0], rough[1])
-    return _SplineBasis(
-        coordinates, tuple(ends), free, vstack(filtered).toarray(), total.toarray()
-    )  # fmt: skip
+    return _SplineBasis(coordinates, tuple(ends), free, vstack(filtered).toarray(), total.toarray())
 
 
 @dataclass(frozen=True, eq=False)
@@ -402,13 +374,13 @@ class _SplineFit(ShortRepr):
     after: np.ndarray
 
     @property
-    def block_reductions(self) -> np.ndarray:
-        """(blocks,) fall of the squared residuals."""
+    def reductions(self) -> np.ndarray:
+        """Returns the fall of the squared residuals, (blocks,)."""
         return self.before - self.after
 
     @property
     def t_ratio(self) -> float:
-        """Fall of the error over its standard error."""
+        """Returns the fall of the error over its standard error."""
         return compute_t_ratio(np.sqrt(self.before) - np.sqrt(self.after))
 
 
@@ -429,11 +401,11 @@ class _SplineProblem:
         self.B, self.parts = B, parts
         mean = float(np.trace(self.BB.sum(axis=0))) / B.shape[1]
         self.rough = splines.rough * (mean * B.shape[1] / max(float(np.trace(splines.rough)), 1e-9))
-        self.ridge = _RIDGE * mean * np.eye(B.shape[1])
+        self.ridge = THRESHOLDS.spline_ridge * mean * np.eye(B.shape[1])
 
     @cached_property
     def full_fit(self) -> tuple[np.ndarray, np.ndarray]:
-        """(r, r) and (r,) inverse of the model's Gram matrix on all rows, and its parameters."""
+        """Returns the inverse Gram matrix (r, r) of the model and its parameters (r,), all rows."""
         base = self.state.gram_blocks
         G = base.G.sum(axis=0) + base.prior[:, :-1]
         inverse = np.linalg.inv(G + 1e-10 * np.eye(len(G)))
@@ -442,7 +414,7 @@ class _SplineProblem:
     def solve(
         self, f: int | None, smooth: float, rising: int = 0
     ) -> tuple[np.ndarray, np.ndarray] | None:
-        """Coefficients and parameters (r,) by all folds but f; None: by all."""
+        """Solves for coefficients and parameters (r,) by all folds but f; None: by all."""
         weight = 0.0 if f is None else 1.0
         BB, XB, By = (
             x.sum(axis=0) - weight * (x[f] if f is not None else 0.0)
@@ -469,13 +441,12 @@ class _SplineProblem:
         rest = others[0] if others else 1
         turn = np.column_stack([turn, -turn[:, :rest]])  # where it begins may have either sign
         root = np.tril(factor)
-        coefficients, _ = nnls(
-            root.T @ turn, np.linalg.solve(root, side), maxiter=100 * turn.shape[1]
-        )
+        target, most = np.linalg.solve(root, side), 100 * turn.shape[1]
+        coefficients, _ = nnls(root.T @ turn, target, maxiter=most)
         return np.asarray(turn @ coefficients)
 
     def fit_smoothness(self, grid: Sequence[float], rising: int = 0) -> _SplineFit:
-        """At the smoothness of the grid that loses least on rows that were not fitted."""
+        """Fits with the smoothness of least cross-validated error."""
         every = [(*self._cross_validate(smooth, rising), smooth) for smooth in grid]
         before, after, smooth = min(every, key=lambda item: float(item[1].sum()))
         solution = self.solve(None, smooth, rising)
@@ -488,15 +459,8 @@ class _SplineProblem:
         after = np.zeros(base.block_count)
         before = np.zeros(base.block_count)
         fits = [self.solve(f, smooth, rising) for f in range(len(self.parts))]
-        for k, (X, y, block, left) in enumerate(
-            zip(
-                base.whitened_columns,
-                base.y,
-                base.block,
-                base.cross_validated_residuals,
-                strict=True,
-            )
-        ):
+        data = zip(base.whitened_columns, base.y, base.block, base.out_of_fold, strict=True)
+        for k, (X, y, block, left) in enumerate(data):
             e = left.copy()
             for f, fold_fit in enumerate(fits):
                 if fold_fit is None:
@@ -517,12 +481,12 @@ def _build_law(state: State, j: int, splines: _SplineBasis, fit: _SplineFit) -> 
         return None
     values = splines.free @ fit.c / size
     low, high = zip(*splines.ends, strict=True)
-    law = Law(low, high, splines.cell_counts, tuple(float(f"{v:.{_DIGITS}g}") for v in values))
-    before = float(np.sum(state.gram_blocks.cross_validated_residuals[j] ** 2))
+    rounded = tuple(float(f"{v:.{THRESHOLDS.law_digits}g}") for v in values)
+    law = Law(low, high, splines.cell_counts, rounded)
+    before = float(np.sum(state.gram_blocks.out_of_fold[j] ** 2))
     torque_square = float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2))
-    fall = float(fit.block_reductions.sum())
-    return LearnedLaw(
-        splines.coordinates, law, size, torque, fit.block_reductions, fit.t_ratio,
-        variance_reduction=min(1.0, fall / max(before, 1e-300)),
-        torque_share=float(np.sqrt(max(0.0, fall) / (torque_square + 1e-300))),
-    )  # fmt: skip
+    fall = float(fit.reductions.sum())
+    reduction = min(1.0, fall / max(before, 1e-300))
+    share = float(np.sqrt(max(0.0, fall) / (torque_square + 1e-300)))
+    numbers = fit.reductions, fit.t_ratio, reduction, share
+    return LearnedLaw(splines.coordinates, law, size, torque, *numbers)

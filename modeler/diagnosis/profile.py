@@ -16,20 +16,25 @@ Seber and Wild 1989, section 5.4). The standard deviation is that of the mixture
 weighted by L, about the value that is told; for a narrow L it is that of the delta method.
 """
 
-import dataclasses
 import itertools
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from modeler.core.manifest import ModuleSpec
-from modeler.diagnosis.candidates import Candidate, JointScale, encode_parameter
-from modeler.diagnosis.effect_columns import expand_columns, list_body_parameters
+from modeler.diagnosis.candidates import (
+    Candidate,
+    JointScale,
+    encode_parameter,
+    list_body_parameters,
+    to_dense,
+)
 from modeler.diagnosis.ranking import build_time_blocks
 from modeler.diagnosis.signals import compute_tilt_axes
 from modeler.diagnosis.state import State
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import EffectTarget, NonlinearParameter
 from modeler.estimation import estimate_autocorrelation, sum_lagged_products
 from modeler.numerics.least_squares import compute_joint_whitening
@@ -42,7 +47,7 @@ class ProfilePoint:
     """One set of shapes, and the fit with it.
 
     Attributes:
-        shapes: values by name, SI.
+        nonlinear_parameters: values by name, SI.
         squares: S, weighted.
         values: (k,) parameters of the effect.
         deviations: (k,) theirs, for white residuals of variance 1.
@@ -74,22 +79,20 @@ class ProfileProblem:
     def __init__(self, state: State, pick: Candidate, effect_columns: slice | list[int]) -> None:
         self.rows, self.observation = state.rows, state.data.observation
         self.scale, self.y, self.sigma = state.joint_scales[pick.scale_index], state.y, state.sigma
-        *self.others, self.prior = (
-            np.delete(w, effect_columns, axis=1) for w in (*state.W, state.prior)
-        )
+        every = (np.delete(w, effect_columns, axis=1) for w in (*state.W, state.prior))
+        *self.others, self.prior = every
 
     @cached_property
     def weighted_base(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
-        """Weighted columns of all else by joint, with the prior orthonormal, and (c, r): W turn."""
-        turn = compute_joint_whitening(
-            [*self.others, self.prior[:, :-1]], np.append(self.sigma, 1.0)
-        )
+        """Returns orthonormal weighted columns of all else by joint, and the transform (c, r)."""
+        blocks, sigma = [*self.others, self.prior[:, :-1]], np.append(self.sigma, 1.0)
+        turn = compute_joint_whitening(blocks, sigma)
         every = zip(self.others, self.sigma, strict=True)
         return tuple(w @ (turn / s) for w, s in every), turn
 
     @cached_property
     def weighted_target(self) -> tuple[tuple[np.ndarray, ...], np.ndarray, float]:
-        """Weighted y by joint, its products with the base, and what the base leaves of y.y."""
+        """Returns weighted y by joint, its products with the base, and what the base leaves."""
         scaled = tuple(t / s for t, s in zip(self.y, self.sigma, strict=True))
         known = self.prior[:, -1]
         u = sum(q.T @ t for q, t in zip(self.weighted_base[0], scaled, strict=True))
@@ -97,7 +100,7 @@ class ProfileProblem:
         return scaled, u, float(sum(t @ t for t in scaled) + known @ known - u @ u)
 
     def fit_candidate(self, candidate: Candidate) -> ProfilePoint | None:
-        """The fit with these shapes; None where the columns cannot be told from all else."""
+        """Fits these parameters; None where the columns are not identifiable beside all else."""
         columns = enumerate(self.rows.build_columns(candidate))
         columns_by_joint = {j: np.asarray(c) / self.sigma[j] for j, c in columns if c is not None}
         if not columns_by_joint or not all(np.isfinite(c).all() for c in columns_by_joint.values()):
@@ -115,45 +118,22 @@ class ProfileProblem:
         values = inverse @ h
         others = self.weighted_base[1] @ (u - T @ values)
         deviations = np.sqrt(np.maximum(np.diag(inverse), 0.0))
-        return ProfilePoint(
-            dict(candidate.nonlinear_parameters),
-            left - float(h @ values),
-            values,
-            deviations,
-            others,
-        )
+        parameters, squares = dict(candidate.nonlinear_parameters), left - float(h @ values)
+        return ProfilePoint(parameters, squares, values, deviations, others)
 
     def compute_squares(self, candidate: Candidate, values: np.ndarray) -> float:
-        """S with these shapes and these values (k,) of the effect; all else is fitted."""
+        """Computes S with these parameters and values (k,) of the effect; all else is fitted."""
         torque = self.compute_residual_columns(candidate) @ values
-        return self.weighted_target[2] + float(
-            torque @ torque - 2.0 * torque @ np.concatenate(self.weighted_target[0])
-        )
+        scaled, _, left = self.weighted_target
+        return left + float(torque @ torque - 2.0 * torque @ np.concatenate(scaled))
 
     def compute_residual_columns(self, candidate: Candidate) -> np.ndarray:
-        """(rows of all joints, k) what all else leaves of the columns, divided by sigma."""
+        """Computes what all else leaves of the columns over sigma, (rows of all joints, k)."""
         columns = self.rows.build_columns(candidate)
-        joint_columns = [
-            expand_columns(columns, j, len(t)) / self.sigma[j] for j, t in enumerate(self.y)
-        ]
+        joint_columns = [to_dense(columns, j, len(t)) / self.sigma[j] for j, t in enumerate(self.y)]
         T = sum(q.T @ c for q, c in zip(self.weighted_base[0], joint_columns, strict=True))
-        return np.concatenate(
-            [c - q @ T for q, c in zip(self.weighted_base[0], joint_columns, strict=True)]
-        )
-
-
-CHI2_95 = 3.841458820694124
-"""95 % quantile of chi-square with one degree of freedom."""
-
-REFUSED = 9.0
-"""Rise from which on a shape is out of the question: three standard deviations."""
-
-_FINE = 0.03  # share of all likelihood that a cell may hold
-_MOST = 64  # shapes looked at along one line
-_LINE = 7  # values per shape where there are several
-_REACHED = 3.0  # standard deviations to which those reach
-_BESIDE = 6  # half waves in the stroke, to which other orders of a ripple are looked at
-_STEP = 1e-3  # of a coded shape, for slopes
+        pairs = zip(self.weighted_base[0], joint_columns, strict=True)
+        return np.concatenate([c - q @ T for q, c in pairs])
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,9 +142,9 @@ class Profile:
 
     Attributes:
         points: shapes that were looked at.
-        told: shapes and values that are told.
+        reported_point: shapes and values that are told.
         factor: (k,) of the deviations: residuals that remember.
-        shape_factor: f.
+        nonlinear_factor: f.
     """
 
     points: tuple[ProfilePoint, ...]
@@ -174,26 +154,25 @@ class Profile:
 
     @cached_property
     def values(self) -> np.ndarray:
-        """(points, k) parameters."""
+        """Returns the parameters, (points, k)."""
         return np.array([point.values for point in self.points])
 
     @cached_property
     def squares_rise(self) -> np.ndarray:
-        """(points,) (S - S*) / f^2."""
+        """Returns (S - S*) / f^2, (points,)."""
         squares = np.array([point.squares for point in self.points])
         return (squares - squares.min()) / self.nonlinear_factor**2
 
     @cached_property
     def likelihood_share(self) -> np.ndarray:
-        """(points,) of the likelihood, summing to one."""
-        weight = np.array([point.weight for point in self.points]) * np.exp(
-            -0.5 * self.squares_rise
-        )
-        weight = np.where(self.squares_rise < REFUSED, weight, 0.0)
+        """Returns the shares of the likelihood, (points,), which sum to one."""
+        weight = np.array([point.weight for point in self.points])
+        weight = weight * np.exp(-0.5 * self.squares_rise)
+        weight = np.where(self.squares_rise < THRESHOLDS.max_rise, weight, 0.0)
         return np.asarray(weight / weight.sum())
 
     def compute_deviations(self) -> np.ndarray:
-        """(k,) standard deviations of the parameters, shapes included.
+        """Computes standard deviations of the parameters, (k,), over all nonlinear parameters.
 
         Never more than the interval reaches: where an effect all but vanishes from the rows, its
         parameter may be anything.
@@ -204,41 +183,34 @@ class Profile:
         return np.minimum(np.sqrt(self.likelihood_share @ (point_deviations**2 + apart**2)), reach)
 
     def compute_intervals(self) -> np.ndarray:
-        """(k, 2) 95 % intervals of the parameters, shapes included."""
+        """Computes 95 % intervals of the parameters, (k, 2), over all nonlinear parameters."""
         every = [*self.points, self.reported_point]
         rise = np.append(self.squares_rise, 0.0)
-        half = np.sqrt(np.maximum(CHI2_95 - rise, 0.0))[:, None] * self.factor
+        half = np.sqrt(np.maximum(THRESHOLDS.chi2_95 - rise, 0.0))[:, None] * self.factor
         values = np.vstack([self.values, self.reported_point.values])
         reach = half * np.array([point.deviations for point in every])
-        allowed = rise < CHI2_95
+        allowed = rise < THRESHOLDS.chi2_95
         low, high = (values - reach)[allowed], (values + reach)[allowed]
         return np.column_stack([low.min(axis=0), high.max(axis=0)])
 
     def compute_nonlinear_deviations(self) -> dict[str, float]:
-        """Standard deviations of the shapes by name."""
-        return {
-            name: float(
-                np.sqrt(
-                    self.likelihood_share
-                    @ [(p.nonlinear_parameters[name] - value) ** 2 for p in self.points]
-                )
-            )
-            for name, value in self.reported_point.nonlinear_parameters.items()
-        }
+        """Computes standard deviations of the nonlinear parameters by name."""
+        deviations = {}
+        for name, value in self.reported_point.nonlinear_parameters.items():
+            squares = [(p.nonlinear_parameters[name] - value) ** 2 for p in self.points]
+            deviations[name] = float(np.sqrt(self.likelihood_share @ squares))
+        return deviations
 
     def compute_nonlinear_intervals(self) -> dict[str, tuple[float, float]]:
-        """95 % intervals of the shapes by name: all that the data do not refuse."""
-        allowed = [
-            p for p, rise in zip(self.points, self.squares_rise, strict=True) if rise < CHI2_95
-        ]
-        values_by_name = {
-            n: [p.nonlinear_parameters[n] for p in (self.reported_point, *allowed)]
-            for n in self.reported_point.nonlinear_parameters
-        }
+        """Computes 95 % intervals of the nonlinear parameters by name."""
+        pairs = zip(self.points, self.squares_rise, strict=True)
+        allowed = [point for point, rise in pairs if rise < THRESHOLDS.chi2_95]
+        sets = [point.nonlinear_parameters for point in (self.reported_point, *allowed)]
+        values_by_name = {name: [values[name] for values in sets] for name in sets[0]}
         return {name: (min(values), max(values)) for name, values in values_by_name.items()}
 
     def compute_extra_covariance(self) -> np.ndarray:
-        """(c + k,) squared: what the shapes add to the covariance; all else first, then own."""
+        """Computes what nonlinear parameters add to the covariance, (c + k,) squared, own last."""
         every = np.array([np.concatenate([p.others, p.values]) for p in self.points])
         apart = every - np.concatenate([self.reported_point.others, self.reported_point.values])
         return np.asarray((apart * self.likelihood_share[:, None]).T @ apart)
@@ -247,7 +219,7 @@ class Profile:
 def compute_profile(
     state: State, candidate: Candidate, effect_columns: slice | list[int]
 ) -> Profile | None:
-    """The likelihood along the shapes of an effect; None if it has none that could be others.
+    """Computes the likelihood along the nonlinear parameters of an effect; None without any.
 
     Args:
         state: the rows.
@@ -256,22 +228,17 @@ def compute_profile(
     """
     problem = ProfileProblem(state, candidate, effect_columns)
     smooth = [shape for shape in candidate.form.nonlinear_parameters if candidate.can_refine(shape)]
-    fixed = {  # shapes of which only some values make sense
-        shape.name: shape.grid
-        for shape in candidate.form.nonlinear_parameters
-        if shape not in smooth
-        and len(shape.grid) > 1
-        and candidate.nonlinear_parameters[shape.name] in shape.grid
-    }
+    values = candidate.nonlinear_parameters  # of the others only some values make sense
+    others = [shape for shape in candidate.form.nonlinear_parameters if shape not in smooth]
+    others = [s for s in others if len(s.grid) > 1 and values[s.name] in s.grid]
+    fixed = {shape.name: shape.grid for shape in others}
     first = problem.fit_candidate(candidate)
     if first is None or not (smooth or fixed):
         return None
     points: list[ProfilePoint] = []
-    for values in itertools.product(*fixed.values()):
-        chosen = dict(zip(fixed, values, strict=True))
-        here = dataclasses.replace(
-            candidate, nonlinear_parameters={**candidate.nonlinear_parameters, **chosen}
-        )
+    for combination in itertools.product(*fixed.values()):
+        chosen = dict(zip(fixed, combination, strict=True))
+        here = replace(candidate, nonlinear_parameters={**candidate.nonlinear_parameters, **chosen})
         points += _scan_nonlinear(problem, here, smooth, first.squares)
     points = [p for p in points if _is_possible(candidate, p)] or [first]
     factors = _compute_factors(problem, candidate, smooth, first)
@@ -282,10 +249,8 @@ def compute_profile(
 
 def _is_possible(candidate: Candidate, point: ProfilePoint) -> bool:
     """False where physics forbids the sign of a value."""
-    return all(
-        value >= 0.0 or not column.nonnegative
-        for value, column in zip(point.values, candidate.form.columns, strict=False)
-    )
+    pairs = zip(point.values, candidate.form.columns, strict=False)
+    return all(value >= 0.0 or not column.nonnegative for value, column in pairs)
 
 
 def _scan_nonlinear(
@@ -296,25 +261,20 @@ def _scan_nonlinear(
         return [point for point in [problem.fit_candidate(start)] if point is not None]
     lines = [_build_line(problem.scale, start, shape) for shape in smooth]
     if len(smooth) == 1:
-        return _refine_line(
-            lambda x: problem.fit_candidate(start.replace_nonlinear_parameters(smooth, [x])),
-            lines[0],
-            least,
-        )
+
+        def fit(x: float) -> ProfilePoint | None:
+            return problem.fit_candidate(start.set_parameters(smooth, [x]))
+
+        return _refine_line(fit, lines[0], least)
     return _scan_grid(problem, start, smooth, lines)
-
-
-def _encode_parameters(shapes: Sequence[NonlinearParameter], candidate: Candidate) -> np.ndarray:
-    return np.array(
-        [encode_parameter(shape, candidate.nonlinear_parameters[shape.name]) for shape in shapes]
-    )
 
 
 def _build_line(scale: JointScale, start: Candidate, shape: NonlinearParameter) -> list[float]:
     """Coded values of one shape to begin with, ascending; the told one among them."""
     coded_value = encode_parameter(shape, start.nonlinear_parameters[shape.name])
     if shape.scale == "waves":
-        near = coded_value + np.pi / scale.range * np.linspace(-_BESIDE, _BESIDE, 4 * _BESIDE + 1)
+        count = THRESHOLDS.neighbouring_orders
+        near = coded_value + np.pi / scale.range * np.linspace(-count, count, 4 * count + 1)
         return [float(m) for m in near if m > 0.0]
     low, high, *inner = (
         encode_parameter(shape, scale.scale_value(shape, entry))
@@ -328,7 +288,7 @@ def _refine_line(
 ) -> list[ProfilePoint]:
     """Points along one shape, closest where the likelihood is: the biggest cell is halved."""
     points_by_value = {x: at(x) for x in line}
-    while len(points_by_value) < _MOST:
+    while len(points_by_value) < THRESHOLDS.max_line_points:
         x = np.array(sorted(points_by_value))
         points = [points_by_value[value] for value in x]
         squares = np.array([np.inf if point is None else point.squares for point in points])
@@ -338,13 +298,14 @@ def _refine_line(
         biggest = int(np.argmax(cells))
         ends = x[biggest], x[biggest + 1]
         middle = 0.5 * (ends[0] + ends[1])
-        if not cells[biggest] > 0.0 or cells[biggest] < _FINE * cells.sum() or middle in ends:
+        small = cells[biggest] < THRESHOLDS.max_cell_share * cells.sum()
+        if not cells[biggest] > 0.0 or small or middle in ends:
             break
         points_by_value[middle] = at(middle)
     x = np.array(sorted(points_by_value))
     edges = np.concatenate([x[:1], 0.5 * (x[1:] + x[:-1]), x[-1:]])
     weighted_points = zip((points_by_value[value] for value in x), np.diff(edges), strict=True)
-    return [dataclasses.replace(p, weight=float(w)) for p, w in weighted_points if p is not None]
+    return [replace(p, weight=float(w)) for p, w in weighted_points if p is not None]
 
 
 def _scan_grid(
@@ -354,17 +315,17 @@ def _scan_grid(
     lines: Sequence[Sequence[float]],
 ) -> list[ProfilePoint]:
     """Points on a grid about the told shapes, along the axes of the likelihood there."""
-    middle = _encode_parameters(smooth, start)
+    middle = start.encode_parameters(smooth)
     low, high = (np.array([line[end] for line in lines]) for end in (0, -1))
     # a root of the covariance of the coded shapes, by the slopes of the columns
     _, slopes = _compute_slopes(problem, start, smooth)
     values, vectors = np.linalg.eigh(slopes.T @ slopes)
     floor = 1e-9 * max(float(values.max(initial=0.0)), 1e-300)
-    axes = vectors / np.sqrt(np.maximum(values, floor)) * _REACHED
-    steps = np.linspace(-1.0, 1.0, _LINE)
+    axes = vectors / np.sqrt(np.maximum(values, floor)) * THRESHOLDS.grid_reach
+    steps = np.linspace(-1.0, 1.0, THRESHOLDS.grid_points)
     places = [middle + axes @ np.array(z) for z in itertools.product(steps, repeat=len(smooth))]
     inside = [x for x in places if np.all((low <= x) & (x <= high))]
-    points = [problem.fit_candidate(start.replace_nonlinear_parameters(smooth, x)) for x in inside]
+    points = [problem.fit_candidate(start.set_parameters(smooth, x)) for x in inside]
     return [point for point in points if point is not None]
 
 
@@ -378,14 +339,11 @@ def _compute_slopes(
     here = problem.fit_candidate(candidate)
     assert here is not None
     columns = problem.compute_residual_columns(candidate)
-    middle, slope = _encode_parameters(smooth, candidate), np.zeros((len(columns), len(smooth)))
-    for i, step in enumerate(_STEP * np.eye(len(smooth))):
-        ends = (
-            candidate.replace_nonlinear_parameters(smooth, x)
-            for x in (middle - step, middle + step)
-        )
+    middle, slope = candidate.encode_parameters(smooth), np.zeros((len(columns), len(smooth)))
+    for i, step in enumerate(THRESHOLDS.slope_step * np.eye(len(smooth))):
+        ends = (candidate.set_parameters(smooth, x) for x in (middle - step, middle + step))
         low, high = (problem.compute_residual_columns(end) @ here.values for end in ends)
-        slope[:, i] = (high - low) / (2.0 * _STEP)
+        slope[:, i] = (high - low) / (2.0 * THRESHOLDS.slope_step)
     return columns, slope - columns @ np.linalg.lstsq(columns, slope, rcond=1e-9)[0]
 
 
@@ -427,44 +385,80 @@ def _compute_factors(
 
 
 @dataclass(frozen=True)
-class EffectValues:
-    """By name of the parameter: value, its standard deviation, unit; SI."""
+class EffectEstimate:
+    """The parameters of an effect by name, SI; nonlinear ones behind the others.
 
-    value: dict[str, float]
-    deviation: dict[str, float]
-    unit: dict[str, str]
+    Attributes:
+        parameters: values.
+        sigmas: standard deviations.
+        intervals: 95 %; empty without nonlinear parameters.
+        units: of all.
+    """
+
+    parameters: dict[str, float]
+    sigmas: dict[str, float]
+    intervals: dict[str, tuple[float, float]]
+    units: dict[str, str]
 
 
-def describe_values(
+def _name_values(
     state: State, pick: Candidate, values: np.ndarray, deviations: np.ndarray
-) -> EffectValues:
-    """What people read of an effect.
+) -> tuple[dict[str, float], dict[str, float], dict[str, str]]:
+    """Values, deviations and units by name.
 
-    A body on a link has its mass and the inertial parameters that the robot feels; a tilted base
-    the change of gravity in frame 0, m/s^2.
-
-    Args:
-        state: with the effect.
-        pick: it.
-        values: of its columns.
-        deviations: theirs.
+    A body on a link has its mass and the inertial parameters that have an effect on the robot; a
+    tilted base the change of gravity in frame 0, m/s^2.
     """
     if pick.effect.acts is EffectTarget.GRAVITY:
         axes = compute_tilt_axes(state.reference)
         values, deviations = (x[: len(axes)] for x in (values, deviations))
         values, deviations = values @ axes, np.sqrt(deviations**2 @ axes**2)
         units = dict.fromkeys(("gx", "gy", "gz"), "m/s^2")
+    elif pick.effect.acts is EffectTarget.LINK:
+        specs = list_body_parameters(pick, state.rows.signals[0])
+        names = (p.name.removesuffix(p.joint) for p in specs)
+        units = {"mass" if n == "M" else n: p.unit for n, p in zip(names, specs, strict=True)}
     else:
-        units = _list_units(state, pick)
-    return EffectValues(
-        dict(zip(units, map(float, values), strict=True)),
-        dict(zip(units, map(float, deviations), strict=False)),
-        units,
-    )
+        unit = "unit_prismatic" if is_prismatic(state.spec, pick.joint) else "unit_revolute"
+        columns = zip(pick.list_parameter_names(), pick.form.columns, strict=True)
+        units = {name: getattr(column, unit) for name, column in columns}
+    value = dict(zip(units, map(float, values), strict=True))
+    return value, dict(zip(units, map(float, deviations), strict=False)), units
+
+
+def name_parameters(state: State, pick: Candidate, values: np.ndarray) -> dict[str, float]:
+    """Names the parameters of an effect of a state, values (k,) and nonlinear ones."""
+    return _name_values(state, pick, values, 0.0 * values)[0] | dict(pick.nonlinear_parameters)
+
+
+def estimate_effect(
+    state: State, place: int, pick: Candidate, values: np.ndarray, deviations: np.ndarray
+) -> EffectEstimate:
+    """Estimates the parameters of an effect of a state, the nonlinear ones included.
+
+    Args:
+        state: with the effect.
+        place: of it among the effects of the state.
+        pick: it.
+        values: of its columns.
+        deviations: theirs, if it has no nonlinear parameters.
+    """
+    along = compute_effect_profile(state, place)
+    if along is not None:
+        deviations = along.compute_deviations()
+    value, sigmas, units = _name_values(state, pick, values, deviations)
+    linear, intervals = is_prismatic(state.spec, pick.joint), {}
+    if along is not None:
+        ends = zip(value, along.compute_intervals().tolist(), strict=False)
+        intervals = {name: (low, high) for name, (low, high) in ends}
+        intervals |= along.compute_nonlinear_intervals()
+        sigmas |= along.compute_nonlinear_deviations()
+    units |= {shape.name: shape.get_unit(linear) for shape in pick.form.nonlinear_parameters}
+    return EffectEstimate(value | dict(pick.nonlinear_parameters), sigmas, intervals, units)
 
 
 def compute_effect_profile(state: State, place: int) -> Profile | None:
-    """The likelihood along the shapes of an effect that was put in.
+    """Computes the likelihood along the nonlinear parameters of an effect of a state.
 
     Args:
         state: with the effect.
@@ -474,14 +468,14 @@ def compute_effect_profile(state: State, place: int) -> Profile | None:
 
 
 def find_effect_columns(state: State, place: int) -> slice:
-    """The columns of an effect of the state."""
+    """Returns the columns of an effect of the state."""
     sizes = [len(values) for values in state.values]
     first = state.W[0].shape[1] - sum(sizes[place:])
     return slice(first, first + sizes[place])
 
 
 def build_reduction_function(state: State, place: int) -> Callable[[Candidate], float]:
-    """The fall of S with an effect that was put in, by its shapes; 0 where physics forbids it."""
+    """Builds the function from a candidate to the fall of S; 0 where physics forbids it."""
     problem = ProfileProblem(state, state.picks[place], find_effect_columns(state, place))
 
     def compute_reduction(candidate: Candidate) -> float:
@@ -492,36 +486,6 @@ def build_reduction_function(state: State, place: int) -> Callable[[Candidate], 
     return compute_reduction
 
 
-def collect_intervals(
-    along: Profile, effect_values: EffectValues
-) -> dict[str, tuple[float, float]]:
-    """95 % intervals of the parameters and shapes of an effect, by name."""
-    pairs = zip(effect_values.value, along.compute_intervals().tolist(), strict=False)
-    return {name: (low, high) for name, (low, high) in pairs} | along.compute_nonlinear_intervals()
-
-
-def _list_units(state: State, pick: Candidate) -> dict[str, str]:
-    """Names of the parameters, in the order of the columns, and their units."""
-    if pick.effect.acts is EffectTarget.LINK:
-        body_specs = list_body_parameters(pick, state.rows.signals[0])
-        names = [p.name.removesuffix(p.joint) for p in body_specs]
-        return {
-            "mass" if name == "M" else name: p.unit
-            for name, p in zip(names, body_specs, strict=True)
-        }
-    linear = is_prismatic(state.spec, pick.joint)
-    return {
-        name: column.unit_prismatic if linear else column.unit_revolute
-        for name, column in zip(pick.list_parameter_names(), pick.form.columns, strict=True)
-    }
-
-
 def is_prismatic(spec: ModuleSpec, joint: str | None) -> bool:
-    """True of a prismatic joint."""
+    """Tells whether a joint is prismatic."""
     return any(joint_spec.name == joint and joint_spec.unit == "m" for joint_spec in spec.joints)
-
-
-def find_nonlinear_units(state: State, pick: Candidate) -> dict[str, str]:
-    """Units of the shapes, by name."""
-    linear = is_prismatic(state.spec, pick.joint)
-    return {shape.name: shape.get_unit(linear) for shape in pick.form.nonlinear_parameters}

@@ -3,9 +3,8 @@
 The rows are there as small matrices by block of time.
 """
 
-import dataclasses
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import ClassVar
@@ -14,19 +13,11 @@ from weakref import WeakSet
 import numpy as np
 
 from modeler.core.brief import ShortRepr
-from modeler.diagnosis.effect_columns import Columns, count_columns
+from modeler.diagnosis.candidates import Columns, count_columns
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import ReducedRows, compute_joint_whitening, compute_whitening
 from modeler.numerics.spectra import estimate_lap_period
 from modeler.regression import Observation
-
-RIDGE = 1e-10
-"""Of the orthonormal base: rounding in a fold that misses a direction stays harmless."""
-
-_AT_ONCE = 48
-"""Candidates whose columns are multiplied at once: they stay in the cache."""
-
-VISIBLE = 0.005
-"""A direction of candidate columns that the base hides beyond this share is not seen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +27,7 @@ class GramBlocks(ShortRepr):
     Attributes:
         source: of the columns.
         y: (rows_j,) by joint, weighted.
-        turn: (c, r) of the base columns W.
+        whitener: (c, r) of the base columns W.
         sigma: (J,) rms residual of each joint, N m or N: the weights are its inverse.
         block: (rows_j,) by joint, number of the block of time.
         fold: (blocks,) number of the fold of each block.
@@ -47,7 +38,7 @@ class GramBlocks(ShortRepr):
 
     source: "WhitenedColumns"
     y: tuple[np.ndarray, ...]
-    whitening_matrix: np.ndarray
+    whitener: np.ndarray
     sigma: np.ndarray
     block: tuple[np.ndarray, ...]
     fold: np.ndarray
@@ -57,38 +48,36 @@ class GramBlocks(ShortRepr):
 
     @property
     def whitened_columns(self) -> tuple[np.ndarray, ...]:
-        """(rows_j, r) by joint, weighted: W turn / sigma; those of the last base are kept."""
+        """Returns W turn / sigma, (rows_j, r) by joint; those of the last base are cached."""
         return self.source.compute_columns()
 
     @property
     def block_count(self) -> int:
-        """How many blocks of time there are."""
+        """Returns the number of blocks of time."""
         return len(self.fold)
 
     @cached_property
     def row_slices(self) -> list[list[tuple[int, slice]]]:
-        """Blocks and their rows, by joint."""
+        """Returns blocks and their rows, by joint."""
         return [find_block_runs(joint_blocks) for joint_blocks in self.block]
 
     @cached_property
     def fold_fits(self) -> "FoldFits":
-        """Fits of the base to all folds but one."""
+        """Fits the base to all folds but one."""
         place = np.unique(self.fold, return_inverse=True)[1]
         count = int(place.max()) + 1
         u = leave_one_fold_out(self.u, place, count) + self.prior[:, -1]
-        inverse, beta = solve_grams(
-            leave_one_fold_out(self.G, place, count) + self.prior[:, :-1], u
-        )
+        G = leave_one_fold_out(self.G, place, count) + self.prior[:, :-1]
+        inverse, beta = solve_grams(G, u)
         return FoldFits(place, inverse, beta)
 
     @cached_property
-    def cross_validated_residuals(self) -> tuple[np.ndarray, ...]:
-        """(rows_j,) by joint, weighted: each row less what the fit to the other folds predicts."""
+    def out_of_fold(self) -> tuple[np.ndarray, ...]:
+        """Computes weighted cross-validated residuals, (rows_j,) by joint."""
         fits = self.fold_fits
-        return tuple(
-            y - np.einsum("ij,ij->i", columns, fits.beta[fits.fold_index[block]])
-            for columns, y, block in zip(self.whitened_columns, self.y, self.block, strict=True)
-        )
+        betas = (fits.beta[fits.fold_index[block]] for block in self.block)
+        rows = zip(self.y, self.whitened_columns, betas, strict=True)
+        return tuple(y - np.einsum("ij,ij->i", columns, beta) for y, columns, beta in rows)
 
 
 class WhitenedColumns:
@@ -103,7 +92,7 @@ class WhitenedColumns:
         self._of, self._made = (W, turn, sigma), tuple[np.ndarray, ...]()
 
     def compute_columns(self) -> tuple[np.ndarray, ...]:
-        """(rows_j, r) by joint."""
+        """Computes the columns, (rows_j, r) by joint."""
         if not self._made:
             for other in list(self._last):
                 other._made = ()
@@ -119,7 +108,7 @@ class FoldFits(ShortRepr):
     """Fits of the base to all folds but one, F of them.
 
     Attributes:
-        place: (blocks,) index of the fit that a block is held out of.
+        fold_index: (blocks,) index of the fit that a block is held out of.
         inverse: (F, r, r) of the Gram matrices.
         beta: (F, r) parameters.
     """
@@ -130,14 +119,15 @@ class FoldFits(ShortRepr):
 
 
 def leave_one_fold_out(values: np.ndarray, place: np.ndarray, count: int) -> np.ndarray:
-    """(F, ...) sums of values (blocks, ...) over all folds but one."""
+    """Computes sums (F, ...) of values (blocks, ...) over all folds but one."""
     fold_sums = np.stack([values[place == f].sum(axis=0) for f in range(count)])
     return np.asarray(fold_sums.sum(axis=0) - fold_sums)
 
 
 def solve_grams(G: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(F, r, r) and (F, r) inverses of Gram matrices of the base, and parameters."""
-    inverse = np.linalg.inv(G + RIDGE * np.eye(G.shape[1])) if G.shape[1] else np.zeros_like(G)
+    """Computes inverses (F, r, r) of Gram matrices of the base, and parameters (F, r)."""
+    ridge = THRESHOLDS.gram_ridge * np.eye(G.shape[1])
+    inverse = np.linalg.inv(G + ridge) if G.shape[1] else np.zeros_like(G)
     return inverse, np.einsum("frs,fs->fr", inverse, u)
 
 
@@ -147,10 +137,10 @@ def build_gram_blocks(
     sigma: np.ndarray,
     block: Sequence[np.ndarray],
     fold: np.ndarray,
-    whitening_matrix: np.ndarray | None = None,
+    whitener: np.ndarray | None = None,
     prior: np.ndarray | None = None,
 ) -> GramBlocks:
-    """The weighted base.
+    """Builds the weighted base.
 
     Args:
         W: (rows_j, c) by joint.
@@ -158,21 +148,19 @@ def build_gram_blocks(
         sigma: (J,) of each joint.
         block: (rows_j,) by joint.
         fold: (blocks,) of each block.
-        whitening_matrix: (c, r) of the columns, where it is known.
+        whitener: (c, r) of the columns, where it is known.
         prior: (k, c + 1) rows of what is known beforehand, of weight 1; None: nothing.
     """
     prior = np.zeros((0, W[0].shape[1] + 1)) if prior is None else prior
-    if whitening_matrix is None:
-        whitening_matrix = compute_joint_whitening([*W, prior[:, :-1]], np.append(sigma, 1.0))
+    if whitener is None:
+        whitener = compute_joint_whitening([*W, prior[:, :-1]], np.append(sigma, 1.0))
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
-    G, u = (
-        np.zeros((len(fold), *whitening_matrix.shape[1:] * 2)),
-        np.zeros((len(fold), whitening_matrix.shape[1])),
-    )
-    known = np.column_stack([prior[:, :-1] @ whitening_matrix, prior[:, -1]])
+    r = whitener.shape[1]
+    G, u = np.zeros((len(fold), r, r)), np.zeros((len(fold), r))
+    known = np.column_stack([prior[:, :-1] @ whitener, prior[:, -1]])
     known = known[:, :-1].T @ known
-    source = WhitenedColumns(W, whitening_matrix, sigma)
-    base = GramBlocks(source, target, whitening_matrix, sigma, tuple(block), fold, G, u, known)
+    source = WhitenedColumns(W, whitener, sigma)
+    base = GramBlocks(source, target, whitener, sigma, tuple(block), fold, G, u, known)
     for w, t, slices in zip(base.whitened_columns, target, base.row_slices, strict=True):
         for b, rows in slices:
             G[b] += w[rows].T @ w[rows]
@@ -181,15 +169,15 @@ def build_gram_blocks(
 
 
 def merge_blocks(base: GramBlocks) -> GramBlocks:
-    """The same with whole folds as blocks: enough where only sums over all blocks count."""
+    """Merges blocks to whole folds, where only sums over all blocks count."""
     place, count = base.fold_fits.fold_index, len(base.fold_fits.beta)
     block = tuple(place[joint_blocks] for joint_blocks in base.block)
     G, u = (np.stack([x[place == f].sum(axis=0) for f in range(count)]) for x in (base.G, base.u))
-    return dataclasses.replace(base, block=block, fold=np.arange(count), G=G, u=u)
+    return replace(base, block=block, fold=np.arange(count), G=G, u=u)
 
 
 def find_block_runs(block: np.ndarray) -> list[tuple[int, slice]]:
-    """The runs of equal block number, in row order."""
+    """Finds the runs of equal block number, in row order."""
     if not block.size:
         return []
     edges = [0, *(np.flatnonzero(np.diff(block)) + 1).tolist(), block.size]
@@ -222,31 +210,32 @@ class CandidateBatch:
 
     @property
     def candidate_count(self) -> int:
-        """Number of candidates, N."""
+        """Returns the number of candidates, N."""
         return len(self.first)
 
     @cached_property
     def first_pairs(self) -> np.ndarray:
-        """(N,) first pair of each candidate."""
+        """Returns the first pair of each candidate, (N,)."""
         return np.cumsum(self.sizes**2) - self.sizes**2
 
 
 def build_batch(base: GramBlocks, every: Sequence[Columns]) -> CandidateBatch:
-    """The Gram matrices of candidates' columns, all of them finite and none zero."""
+    """Builds the Gram matrices of candidates' columns, all of them finite and none zero."""
     sizes = np.array([count_columns(columns) for columns in every], dtype=int)
     first = np.cumsum(sizes) - sizes
     owner = np.repeat(np.arange(len(sizes)), sizes)
-    K, r = len(owner), base.whitening_matrix.shape[1]
-    pairs = np.array(
-        [(f + i, f + k) for f, size in zip(first, sizes, strict=True)
-         for i in range(size) for k in range(size)]
-    ).reshape(-1, 2).astype(int)  # fmt: skip
+    K, r = len(owner), base.whitener.shape[1]
+    blocks = [
+        f + np.indices((size, size)).reshape(2, -1) for f, size in zip(first, sizes, strict=True)
+    ]
+    pairs = np.concatenate([np.zeros((2, 0), dtype=int), *blocks], axis=1).T
     T, w = np.zeros((base.block_count, r, K)), np.zeros((base.block_count, K))
     D, square = np.zeros((base.block_count, len(pairs))), np.zeros(K)
     pool = CandidateBatch(owner, sizes, first, np.ones(K), T, w, pairs, D)
     for j in range(len(base.sigma)):
         active = [i for i, columns in enumerate(every) if columns[j] is not None]
-        for some in (active[k : k + _AT_ONCE] for k in range(0, len(active), _AT_ONCE)):
+        chunk = THRESHOLDS.candidate_chunk
+        for some in (active[k : k + chunk] for k in range(0, len(active), chunk)):
             if not base.y[j].size:
                 continue
             places = np.concatenate([np.arange(first[i], first[i] + sizes[i]) for i in some])
@@ -280,7 +269,7 @@ def _add_joint(
 
 
 def estimate_sigma(rows: ReducedRows, prior: np.ndarray | None = None) -> np.ndarray:
-    """(J,) rms residual of each joint after weighted least squares iterated to its fixed point.
+    """Estimates the rms residual of each joint, (J,), by iterated weighted least squares.
 
     Rows 0 = W_j beta of a joint without a motor, which beta = 0 would satisfy, weigh as those of a
     fit (see `estimation.least_squares`): their sigma beside the torques that cancel in them is at
@@ -298,8 +287,9 @@ def estimate_sigma(rows: ReducedRows, prior: np.ndarray | None = None) -> np.nda
     grams = [w.T @ w for w in rows.W]
     sides = [w.T @ y for w, y in zip(rows.W, rows.y, strict=True)]
     if prior is not None:
-        grams, sides = ([*x, prior[:, :-1].T @ y] for x, y in
-                        ((grams, prior[:, :-1]), (sides, prior[:, -1])))  # fmt: skip
+        grams, sides = (
+            [*x, prior[:, :-1].T @ y] for x, y in ((grams, prior[:, :-1]), (sides, prior[:, -1]))
+        )
     weights = np.ones(len(grams))
     for _ in range(50):
         weights[: len(sigma)] = sigma
@@ -308,9 +298,8 @@ def estimate_sigma(rows: ReducedRows, prior: np.ndarray | None = None) -> np.nda
         updated = np.array([_compute_rms(y - w @ beta, n) if n else 1.0 for y, w, n in every])
         if free.any() and not free.all():
             error = float(np.sqrt(np.mean((updated[~free] / size[~free]) ** 2)))
-            parts = [
-                np.diag(gram) @ beta**2 / max(n, 1) for gram, n in zip(grams, count, strict=False)
-            ]
+            pairs = zip(grams, count, strict=False)
+            parts = [np.diag(gram) @ beta**2 / max(n, 1) for gram, n in pairs]
             updated = np.where(free, np.maximum(updated, error * np.sqrt(parts)), updated)
         updated = np.maximum(updated, floor)
         settled = np.all(np.abs(updated / sigma - 1.0) < 1e-4)
@@ -339,15 +328,6 @@ def _solve_least_squares(
 # Blocks of time, and folds that hold out different motion.
 
 
-BLOCK = 0.5
-"""s; longer where logs are long: statistics over blocks need no more than `MOST`."""
-
-MOST = 120
-
-
-FOLDS = 8
-
-
 @dataclass(frozen=True, eq=False)
 class TimeBlocks(ShortRepr):
     """Of an observation.
@@ -364,14 +344,14 @@ class TimeBlocks(ShortRepr):
 
 
 def build_time_blocks(observation: Observation) -> TimeBlocks:
-    """Blocks of half a second, and eight folds.
+    """Builds blocks of half a second, and eight folds.
 
     Each log is cut into eight stretches; where its motion repeats, one lap is, and the same phase
     of all laps is held out together: neighbouring laps would give the answer away.
     """
     time, run = observation.time, observation.run
     total = float(sum(np.ptp(time[run == log]) for log in np.unique(run)))
-    length = max(BLOCK, total / MOST)
+    length = max(THRESHOLDS.block_duration, total / THRESHOLDS.max_blocks)
     number = np.zeros(len(time), dtype=int)
     folds: list[int] = []
     periods = []
@@ -390,7 +370,7 @@ def build_time_blocks(observation: Observation) -> TimeBlocks:
         np.add.at(middle, block, phase)
         middle /= np.bincount(block)
         number[log_rows] = block + len(folds)
-        folds += [(int(FOLDS * min(m, 0.999)) + log) % FOLDS for m in middle]
+        folds += [(int(THRESHOLDS.folds * min(m, 0.999)) + log) % THRESHOLDS.folds for m in middle]
     return TimeBlocks(number, np.array(folds), tuple(periods))
 
 
@@ -402,16 +382,16 @@ class Ranking:
     """Of N candidates; weighted units: the residual of each joint has variance about 1.
 
     Attributes:
-        drop: (blocks, N) fall of the squared residual in blocks that were held out.
+        reductions: (blocks, N) fall of the squared residual in blocks that were held out.
         before: (J,) squared residual there without any candidate.
-        sure: (N,) fall fitted on all rows over its standard error: sums over blocks of what the
+        t_ratios: (N,) fall fitted on all rows over its standard error: sums over blocks of what the
             candidate explains and what it leaves, so that coloured residuals count.
         value: by candidate, its parameters on all rows, SI.
         deviation: their standard deviation for white residuals of variance 1, SI.
-        visible: (N,) share of the columns that the base does not hide.
+        visible_shares: (N,) share of the columns that the base does not hide.
     """
 
-    block_reductions: np.ndarray
+    reductions: np.ndarray
     before: np.ndarray
     t_ratios: np.ndarray
     value: Sequence[np.ndarray]
@@ -420,7 +400,7 @@ class Ranking:
 
 
 def rank_candidates(base: GramBlocks, pool: CandidateBatch) -> Ranking:
-    """Blocked cross-validation of every candidate beside the base.
+    """Ranks candidates by blocked cross-validation beside the base.
 
     Candidates are projected off the base: what the base can imitate is not theirs. For each fold,
     base and candidate are fitted on the others, and the fall of the squared residual is counted
@@ -435,7 +415,7 @@ def rank_candidates(base: GramBlocks, pool: CandidateBatch) -> Ranking:
     score = np.sum((cross - square) ** 2, axis=0)
     return Ranking(
         compute_reductions(base, pool),
-        np.array([float(left @ left) for left in base.cross_validated_residuals]),
+        np.array([float(left @ left) for left in base.out_of_fold]),
         every.fitted[0] / np.sqrt(np.maximum(score, 1e-300)),
         np.split(every.gamma[0] / pool.scale, pool.first[1:]),
         np.split(every.deviation[0] / pool.scale, pool.first[1:]),
@@ -444,9 +424,9 @@ def rank_candidates(base: GramBlocks, pool: CandidateBatch) -> Ranking:
 
 
 def compute_reductions(base: GramBlocks, pool: CandidateBatch) -> np.ndarray:
-    """(blocks, N) fall of the squared residual in blocks that were held out.
+    """Computes the fall of the squared residual in held-out blocks, (blocks, N).
 
-    " "`Ranking.block_reductions`.
+    " "`Ranking.reductions`.
     """
     crossed = base.fold_fits
     at = (crossed.fold_index, len(crossed.beta))
@@ -463,7 +443,7 @@ def compute_reductions(base: GramBlocks, pool: CandidateBatch) -> np.ndarray:
 def compute_total_reductions(
     base: GramBlocks, pool: CandidateBatch
 ) -> tuple[np.ndarray, list[np.ndarray]]:
-    """`rank_candidates` in sums, where base and pool are those of whole folds.
+    """Computes the total fall, and parameters, where base and pool are those of whole folds.
 
     What chooses among shapes.
 
@@ -501,17 +481,14 @@ def _solve_batch(
     M = D - np.einsum("fri,fri->fi", T[:, :, i], A[:, :, k])
     h = w - np.einsum("frk,fr->fk", A, u)
     gamma, deviation = np.zeros(h.shape), np.zeros(h.shape)
-    visible, fitted = (
-        np.zeros((len(h), pool.candidate_count)),
-        np.zeros((len(h), pool.candidate_count)),
-    )
+    visible, fitted = np.zeros((2, len(h), pool.candidate_count))
     for size in np.unique(pool.sizes):
         same_size = np.flatnonzero(pool.sizes == size)
         places = pool.first[same_size][:, None] + np.arange(size)
         square = pool.first_pairs[same_size][:, None] + np.arange(size**2)
         matrix = M[:, square].reshape(len(h), -1, size, size)
         values, vectors = np.linalg.eigh(0.5 * (matrix + matrix.swapaxes(2, 3)))
-        is_resolved = values > VISIBLE**2
+        is_resolved = values > THRESHOLDS.min_visible_share**2
         inverted = np.where(is_resolved, 1.0 / np.where(is_resolved, values, 1.0), 0.0)
         turned = np.einsum("fnij,fni->fnj", vectors, h[:, places])
         gamma[:, places] = np.einsum("fnij,fnj->fni", vectors, inverted * turned)

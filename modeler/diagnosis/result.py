@@ -3,7 +3,7 @@
 import math
 import textwrap
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -16,27 +16,107 @@ from modeler.core.table import format_error_pair, format_percent
 from modeler.core.thresholds import THRESHOLDS as CORE_THRESHOLDS
 from modeler.core.toml_cells import format_toml
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.cross_checks import CrossCheck, Key, ParameterChange
-from modeler.diagnosis.drive_gains import is_gain
-from modeler.diagnosis.events import PushWindow
-from modeler.diagnosis.judge import KEPT
+from modeler.diagnosis.plausibility import is_gain
+from modeler.diagnosis.scoring import ErrorChange
 from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import MOTION, Effect, EffectTarget
 
 # Does an effect explain what is systematic, or only part of it?
 
 
-CLOSED = 0.95
-"""Share of what is systematic that an effect must explain to be stated as the cause."""
+Key = tuple[str, str | None]
+"""Effect and joint; the joint of an effect of the whole robot is None."""
+
+
+def _describe_key(key: Key) -> dict[str, str | None]:
+    return dict(zip(("effect", "joint"), key, strict=True))
+
+
+@dataclass(frozen=True)
+class CrossCheck:
+    """What another look says of one effect.
+
+    Attributes:
+        what: which look, in words.
+        leads: effect and joint that lead there on its joint; None if nothing surely does.
+        agrees: True if that is the effect, if the data there do not tell it from the effect, or if
+            nothing is sure there.
+        gain: fall of the residual variance of its joints there, cross-validated; NaN if unknown.
+        expected: what the values that it was named with let expect of it there; 0 if unknown.
+    """
+
+    what: str
+    leads: Key | None
+    agrees: bool
+    gain: float = math.nan
+    expected: float = 0.0
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data."""
+        leads = None if self.leads is None else _describe_key(self.leads)
+        return {"leads": leads, **select_attributes(self, "what agrees gain expected")}
+
+
+@dataclass(frozen=True)
+class ParameterChange:
+    """A base parameter that differs between the training and the held-out logs.
+
+    Attributes:
+        name: of the parameter.
+        before, after: fitted to the training logs, and to the held-out logs alone.
+        sigma_before, sigma_after: standard deviations.
+        unit: of all four.
+        share: rms torque of the change over that of the joint where it is largest.
+    """
+
+    name: str
+    before: float
+    after: float
+    sigma_before: float
+    sigma_after: float
+    unit: str
+    share: float
+
+
+@dataclass(frozen=True, eq=False)
+class PushWindow:
+    """When it pushed.
+
+    Attributes:
+        log: index.
+        start, end: s.
+        ratio: energy of the steady torque there over the largest in any window elsewhere.
+        torque: its mean by joint, N m or N.
+        change: of the error of all joints by it, over all rows of the logs; None for what comes
+            only once as well, but is no steady torque: a spike, a shock.
+    """
+
+    log: int
+    start: float
+    end: float
+    ratio: float
+    torque: Mapping[str, float] = field(default_factory=dict)
+    change: ErrorChange | None = None
+
+    def merge_part(self, other: "PushWindow") -> "PushWindow | None":
+        """Merges the push with a part of it; None if that is another push."""
+        apart = THRESHOLDS.push_separation
+        near = other.start < self.end + apart and other.end > self.start - apart
+        if other.log != self.log or not near:
+            return None
+        start, end = min(self.start, other.start), max(self.end, other.end)
+        return replace(self, start=start, end=end)
 
 
 def compute_explained_fraction(
-    squares: Sequence[Sequence[float]], touched: Sequence[int],
+    squares: Sequence[Sequence[float]],
+    touched: Sequence[int],
     systematic: Callable[[int], float],
     sigma: np.ndarray,
-) -> float:  # fmt: skip
-    """What one effect explains, over that, what later ones explain and what stays systematic.
+) -> float:
+    """Computes what one effect explains, over that and what stays systematic.
 
     Squared residuals of the joints it touches, in units of their first residual. What a wrong name
     leaves, others are found to mend; so what they explain there counts as left.
@@ -58,40 +138,28 @@ def compute_explained_fraction(
 
 
 def compute_mean_square(values: np.ndarray) -> float:
-    """0 of none."""
+    """Computes the mean square; 0 of none."""
     return float(np.mean(values**2)) if values.size else 0.0
 
 
 # Is an effect named? One rule, of `diagnose`, `add` and `auto`.
 
 
-SMALL = 0.1
-"""Least fall of the error of the joints that an effect touches, as a share of it; less only where
-nothing systematic is left with it."""
-
-MOST_LEFT = 0.5
-"""Error of a joint with the effect from which on the fit does not determine that joint: of 139
-joints of measured logs, 34 of 41 with more predict other motion of the machine to no better than
-60 %."""
-
-SHOWN = 0.02
-"""Fall of the residual variance that an effect lets expect in another look, from which on it must
-show a part of it there."""
-
-COUNTED = 3.0
-"""Standard deviations from a whole number of waves per turn from which on they are no teeth."""
-
-
 _NONE: Mapping[str, float] = {}
 
 
 def explain_weak_evidence(
-    pick: Candidate, errors: tuple[float, float], objection: str = "",
-    sigmas: Mapping[str, float] = _NONE, closed: float | None = None,
-    checks: Sequence[CrossCheck] = (), ties: Sequence[Candidate] = (), refines: bool = False,
+    pick: Candidate,
+    errors: tuple[float, float],
+    objection: str = "",
+    sigmas: Mapping[str, float] = _NONE,
+    closed: float | None = None,
+    checks: Sequence[CrossCheck] = (),
+    ties: Sequence[Candidate] = (),
+    refines: bool = False,
     left: Sequence[float] = (),
-) -> str:  # fmt: skip
-    """Why an effect is perhaps missing and no more; empty if it is named.
+) -> str:
+    """Explains why an effect is possible only; empty if it is named.
 
     Args:
         pick: the effect, with its shapes.
@@ -107,18 +175,20 @@ def explain_weak_evidence(
     before, after = errors
     worst = max([after, *left])
     reasons = [objection] if objection and not is_gain(pick) else []
-    if worst > MOST_LEFT:
+    if worst > THRESHOLDS.max_joint_error:
         reasons.append(
             f"with it the error is {format_percent(worst)} still, so the fit does not determine a "
             "joint"
         )
-    small = not refines and (closed is None or closed < CLOSED)
-    if small and after > (1.0 - SMALL) * before:
-        reasons.append(f"the error falls by less than {format_percent(SMALL)} of itself")
-    if pick.effect.orders and pick.effect.orders[1] < math.inf:
-        spread = COUNTED * max(
-            sigmas.get(shape.name, math.inf) for shape in pick.form.nonlinear_parameters
+    small = not refines and (closed is None or closed < THRESHOLDS.min_explained_fraction)
+    if small and after > (1.0 - THRESHOLDS.min_error_reduction) * before:
+        reasons.append(
+            "the error falls by less than "
+            f"{format_percent(THRESHOLDS.min_error_reduction)} of itself"
         )
+    if pick.effect.orders and pick.effect.orders[1] < math.inf:
+        sigma = max(sigmas.get(s.name, math.inf) for s in pick.form.nonlinear_parameters)
+        spread = THRESHOLDS.max_order_deviation * sigma
         if abs(pick.wave_order - round(pick.wave_order)) > spread:
             reasons.append(f"{pick.wave_order:.1f} waves a turn are no number of teeth or poles")
     joints = sorted({tie.joint for tie in ties if tie.joint not in (None, pick.joint)})
@@ -131,20 +201,14 @@ def explain_weak_evidence(
     for check in () if unit else checks:
         if not check.agrees and check.leads is not None:
             reasons.append(f"{check.leads[0]} explains its joint better ({check.what})")
-        if check.expected > SHOWN and check.gain < KEPT * check.expected and not is_gain(pick):
+        expected = check.expected > THRESHOLDS.min_expected_reduction and not is_gain(pick)
+        if expected and check.gain < THRESHOLDS.min_confirmed_share * check.expected:
             reasons.append(f"it explains nothing {check.what}")
     return "; ".join(reasons)
 
 
-FELT = 0.005
-"""Of the torque's rms: what is systematic below is not worth a word."""
-
-LEFT = 0.15
-"""Share of the residual's variance that must be systematic before an unnamed cause is reported."""
-
-
 def explain_exclusion(effect: Effect, spec: ModuleSpec) -> str:
-    """Why an effect cannot go into a model of this robot; empty if it can."""
+    """Explains why an effect cannot go into a model of this robot; empty if it can."""
     if effect.hindrance:
         return effect.hindrance
     moved = all(name.startswith(MOTION) for name in effect.forms[0].names)
@@ -162,10 +226,6 @@ JOINTED = (EffectTarget.JOINT, EffectTarget.MOTOR, EffectTarget.POSITION, Effect
 """Effects that act on a joint."""
 
 
-HIDDEN = 0.01
-"""Share of its columns below which the logs do not show an effect."""
-
-
 @dataclass(frozen=True, eq=False)
 class FittedCandidate(ShortRepr):
     """An effect ready to go into a model: nothing has to be searched for again.
@@ -174,7 +234,7 @@ class FittedCandidate(ShortRepr):
         candidate: effect, joint, shapes.
         values: (k,) of its columns, SI; a delay is that of the logs as they are.
         state: the model with all effects that were found, about which it is linearised.
-        visible: share of its columns that the model does not hide.
+        visible_share: share of its columns that the model does not hide.
     """
 
     candidate: Candidate
@@ -196,18 +256,18 @@ class Finding(ShortRepr):
         sigmas: standard deviations of the parameters and shapes; those of an effect with shapes
             hold for all shapes that the data do not refuse.
         units: of the parameters and shapes.
-        ties: effects that the data do not tell from it.
+        equivalents: effects that the data do not tell from it.
         evidence: why, in one or two sentences.
         closure: share of what is systematic on its joints that it explains itself; None for
             contacts and play, which are no columns of the model.
-        refines: True if it refines a law of the model, or an effect named before on its joint.
+        is_refinement: true if it refines a law of the model, or an effect named before.
         objection: why its values cannot be those of this robot; empty if they can.
         intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
-        looks: what other logs and another band say of it; empty for contacts and play.
+        cross_checks: what other logs and another band say of it; empty for contacts and play.
         doubt: why it is no more than a perhaps; empty if it is named.
-        first: True if nothing was named before it.
+        is_first: True if nothing was named before it.
         pick: what `modeler add` puts in; None for contacts and play.
-        event: True if it came once.
+        is_event: True if it came once.
     """
 
     effect: str
@@ -231,36 +291,31 @@ class Finding(ShortRepr):
 
     @property
     def is_confirmed(self) -> bool:
-        """True if it is the cause, or one of those that these data do not tell apart."""
-        closed = self.closure is None or self.closure >= CLOSED
+        """Tells whether it is the cause, or one of those that these data do not distinguish."""
+        closed = self.closure is None or self.closure >= THRESHOLDS.min_explained_fraction
         sure = not self.doubt and not self.objection and not math.isnan(self.gain)
         return closed and sure and self.is_first
 
     @property
     def status(self) -> str:
-        """What is stated as missing is a "fact", else "named" or "perhaps"; a tie is no fact."""
+        """Returns "fact" of what is stated as missing, else "named" or "perhaps"."""
         if self.doubt:
             return "perhaps"
-        return (
-            "fact"
-            if self.is_confirmed and not self.is_refinement and not self.equivalents
-            else "named"
-        )
+        alone = not self.is_refinement and not self.equivalents
+        return "fact" if self.is_confirmed and alone else "named"
 
     @property
     def gain(self) -> float:
-        """Fall of the residual variance of its joints: 1 - (error_after / error_before)^2."""
+        """Returns the variance reduction of its joints, 1 - (error_after / error_before)^2."""
         before = self.error_before
         return 1.0 - (self.error_after / before) ** 2 if before > 0.0 else math.nan
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         return {
-            **select_attributes(
-                self, "effect joint status gain error_before error_after parameters sigmas"
-            ),
-            **select_attributes(self, "intervals units"),
-            "ties": [{"effect": effect, "joint": joint} for effect, joint in self.equivalents],
+            **select_attributes(self, "effect joint status gain error_before error_after"),
+            **select_attributes(self, "parameters sigmas intervals units"),
+            "ties": list(map(_describe_key, self.equivalents)),
             **select_attributes(self, "evidence closure objection doubt"),
             "looks": [check.to_json() for check in self.cross_checks],
         }
@@ -281,7 +336,7 @@ class EquationProposal(ShortRepr):
         relative: id of the nearest effect with a name.
         likeness: share of its torque that this explains.
         differs: what differs, in plain words.
-        drawn: the search with it as its last step, for pictures.
+        final_search: the search with it as its last step, for pictures.
         apart: the command that looks for a motion which tells it from the next.
         where: the state of the joint in these logs in which they differ most.
     """
@@ -302,14 +357,14 @@ class EquationProposal(ShortRepr):
 
     @property
     def text(self) -> str:
-        """To be pasted into a robot file; the line of `[effects]` is behind it, as a comment."""
+        """Returns the text for a robot file, with the line of `[effects]` as a comment."""
         lines = (f"{key} = {format_toml(value)}" for key, value in self.definition.items())
         line = f"# [effects] {self.effects_line}"
         return "\n".join([f"[own_effects.{self.finding.effect}]", *lines, line])
 
     @property
     def summary_lines(self) -> list[str]:
-        """What people read."""
+        """Returns the lines for people."""
         f = self.finding
         units = {name: f" {unit}" for name, unit in f.units.items() if unit != "1"}
         values = ", ".join(
@@ -320,28 +375,26 @@ class EquationProposal(ShortRepr):
         instead = f", in place of {', '.join(self.instead)}" if self.instead else ""
         law = f"{format_percent(self.explained)} of what a learned law explains"
         law = "a learned law explains nothing" if math.isnan(self.explained) else law
-        lines = [f"joint {f.joint}: {self.equation}: error {change}{instead}; {law}",
-                 f"  {values}", f"  {self.differs}"]  # fmt: skip
+        lines = [
+            f"joint {f.joint}: {self.equation}: error {change}{instead}; {law}",
+            f"  {values}",
+            f"  {self.differs}",
+        ]
         if self.apart:
-            lines += [f"  told from the next by: {self.apart}", f"  {self.where}"]
+            lines += [f"  discriminating motion: {self.apart}", f"  {self.where}"]
         return lines
 
     def format_lines(self) -> list[str]:
-        """The same, and the text to paste."""
+        """Formats these, and the text to paste."""
         return [*self.summary_lines, *(f"    {line}" for line in self.text.splitlines())]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
         return {
-            **select_attributes(
-                self.finding, "effect joint error_before error_after gain parameters sigmas"
-            ),
-            **select_attributes(self.finding, "intervals units"),
-            "text": self.text,
-            **select_attributes(
-                self, "equation effects_line explained symbols instead relative likeness"
-            ),
-            **select_attributes(self, "differs apart where"),
+            **select_attributes(self.finding, "effect joint error_before error_after gain"),
+            **select_attributes(self.finding, "parameters sigmas intervals units"),
+            **select_attributes(self, "text equation effects_line explained symbols instead"),
+            **select_attributes(self, "relative likeness differs apart where"),
         }
 
 
@@ -364,15 +417,17 @@ class JointDiscovery(ShortRepr):
     why: str = ""
 
     def format_lines(self) -> list[str]:
-        """For people."""
+        """Formats the lines for people."""
         if not self.proposals:
             return [f"joint {self.joint}: {self.why}"]
         return [line for proposal in self.proposals for line in proposal.format_lines()]
 
     def to_json(self) -> dict[str, Any]:
         """Plain data."""
-        return {**select_attributes(self, "joint share law why"),
-                "proposals": [p.to_json() for p in self.proposals]}  # fmt: skip
+        return {
+            **select_attributes(self, "joint share law why"),
+            "proposals": [p.to_json() for p in self.proposals],
+        }
 
 
 @dataclass(frozen=True)
@@ -400,9 +455,10 @@ class JointState(ShortRepr):
 
     @property
     def is_unexplained(self) -> bool:
-        """True if what is left of physics is worth a word."""
+        """Tells whether a significant systematic residual remains."""
         left = self.systematic + self.noise
-        return self.systematic > max(FELT**2, LEFT * left)
+        share = THRESHOLDS.min_systematic_share * left
+        return self.systematic > max(THRESHOLDS.min_systematic_torque**2, share)
 
 
 @dataclass(frozen=True, eq=False)
@@ -468,44 +524,43 @@ class Diagnosis(Result):
 
     @property
     def band(self) -> float:
-        """Hz up to which residuals were looked at; values are those of this band too."""
+        """Returns the band of the residuals, Hz; values are those of this band too."""
         observation = self.search.start.data.observation
         return observation.report.processing.parallel_cutoff
 
     @property
     def addable_findings(self) -> tuple[Finding, ...]:
-        """The effects that `modeler add` puts in."""
+        """Returns the effects that `modeler add` puts in."""
         spec = self.search.spec
         has = {(p.effect, p.joint) for p in spec.standard}
-        return tuple(
-            f for f in self.effects
-            if f.pick is not None and f.pick.visible_share >= HIDDEN and not self.machine_changed
-            and not explain_exclusion(f.pick.candidate.effect, spec)
-            and ((f.effect, f.joint) not in has or f.pick.candidate.effect.several)
-        )  # fmt: skip
+        least = THRESHOLDS.min_addable_share
+
+        def can_add(finding: Finding) -> bool:
+            if finding.pick is None or finding.pick.visible_share < least:
+                return False
+            effect = finding.pick.candidate.effect
+            new = (finding.effect, finding.joint) not in has or effect.several
+            return new and not explain_exclusion(effect, spec)
+
+        return () if self.machine_changed else tuple(filter(can_add, self.effects))
 
     @property
     def changed(self) -> bool:
-        """True if the base parameters were kept and the robot has changed since."""
+        """Tells whether the robot has changed since the fit, so that parameters were fixed."""
         return self.search.start.data.fixed_parameters is not None
 
     def to_json(self) -> dict[str, Any]:
         """The `diagnose` object that scripts read; numbers that mean nothing are null."""
-        return convert_to_plain({
-            **select_attributes(self, "robot verdict effects refinements"),
-            "rivals": [
-                {"effect": effect, "joint": joint, "gain": gain}
-                for effect, joint, gain in self.rivals
-            ],
-            "blind_spots": [
-                {"effect": effect, "joint": joint} for effect, joint in self.blind_spots
-            ],
-            "joints": {
-                name: {"relative_error": self.errors.get(name), **vars(joint)}
-                for name, joint in self.joints.items()
-            },
-            **select_attributes(self, "unmoved held_out sentences band fit_band data changed"),
-            **select_attributes(self, "contradicted machine_changed"),
-            **({} if self.discoveries is None else {
-                "discoveries": [discovery.to_json() for discovery in self.discoveries]}),
-        })  # fmt: skip
+        joints = self.joints.items()
+        proposed = self.discoveries
+        return convert_to_plain(
+            {
+                **select_attributes(self, "robot verdict effects refinements"),
+                "rivals": [{**_describe_key((e, j)), "gain": gain} for e, j, gain in self.rivals],
+                "blind_spots": list(map(_describe_key, self.blind_spots)),
+                "joints": {n: {"relative_error": self.errors.get(n), **vars(j)} for n, j in joints},
+                **select_attributes(self, "unmoved held_out sentences band fit_band data changed"),
+                **select_attributes(self, "contradicted machine_changed"),
+                **({} if proposed is None else {"discoveries": [d.to_json() for d in proposed]}),
+            }
+        )

@@ -1,8 +1,7 @@
 """The search: name the best effect, refine it, put it in, look again; drop what is not needed."""
 
-import dataclasses
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -11,17 +10,11 @@ from scipy.optimize import minimize, minimize_scalar
 
 from modeler.core.brief import ShortRepr
 from modeler.core.manifest import ModuleSpec
+from modeler.diagnosis import plausibility
 from modeler.diagnosis.candidates import Candidate, encode_parameter
-from modeler.diagnosis.drive_gains import (
-    compute_candidate_columns,
-    is_gain,
-    select_likeliest,
-    solve_parameters,
-)
-from modeler.diagnosis.generate import find_slowest_ringing, generate_candidates
-from modeler.diagnosis.judge import (
-    NEARLY,
-    SAME,
+from modeler.diagnosis.generation import find_slowest_ringing, generate_candidates
+from modeler.diagnosis.profile import build_reduction_function, name_parameters
+from modeler.diagnosis.scoring import (
     CandidateFit,
     RankedCandidates,
     ScoredCandidate,
@@ -31,17 +24,9 @@ from modeler.diagnosis.judge import (
     select_best,
     select_best_fits,
 )
-from modeler.diagnosis.plausible import DRIVES, EITHER, find_caveat, is_friction_driving
-from modeler.diagnosis.profile import build_reduction_function, describe_values
 from modeler.diagnosis.state import SearchData, State, batch_candidates, build_state, is_visible
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, NonlinearParameter, Requirement
-
-_STEPS = 8
-_TURNS = 5
-
-WHOLE = 0.85
-"""Share of the best fall with which a whole number of waves per turn is preferred: teeth, poles and
-rollers are counted."""
 
 
 def refine_nonlinear_parameters(
@@ -49,7 +34,7 @@ def refine_nonlinear_parameters(
     candidate: Candidate,
     compute_reduction: Callable[[Candidate], float] | None = None,
 ) -> Candidate:
-    """The candidate at the shapes that explain most: variable projection.
+    """Refines the nonlinear parameters by variable projection.
 
     Args:
         state: of the model.
@@ -61,61 +46,46 @@ def refine_nonlinear_parameters(
     if not smooth:
         return candidate
     scale = state.joint_scales[candidate.scale_index]
-    start = np.array(
-        [encode_parameter(shape, candidate.nonlinear_parameters[shape.name]) for shape in smooth]
-    )
+    start = candidate.encode_parameters(smooth)
     reach = np.array([_compute_search_range(state, candidate, shape) for shape in smooth])
     if smooth[0].scale == "waves":
         low, high = np.zeros(1), np.full(1, np.inf)
     else:
-        low, high = (
-            np.array(
-                [
-                    encode_parameter(shape, scale.scale_value(shape, shape.limits[k]))
-                    for shape in smooth
-                ]
-            )
-            for k in (0, 1)
-        )
+        limits = [[scale.scale_value(shape, x) for x in shape.limits] for shape in smooth]
+        pairs = list(zip(smooth, limits, strict=True))
+        low, high = (np.array([encode_parameter(s, x[k]) for s, x in pairs]) for k in (0, 1))
         if candidate.effect.is_oscillator:
             low = np.maximum(low, [_find_lower_bound(state, shape) for shape in smooth])
 
     def compute_loss(x: np.ndarray) -> float:
-        return -compute_reduction(
-            candidate.replace_nonlinear_parameters(smooth, np.clip(x, low, high))
-        )
+        return -compute_reduction(candidate.set_parameters(smooth, np.clip(x, low, high)))
 
+    steps = THRESHOLDS.refinement_steps
     if len(smooth) == 1:
         solution = minimize_scalar(
             lambda x: compute_loss(np.array([x])),
-            bounds=(max(start[0] - reach[0], low[0]), min(start[0] + reach[0], high[0])),
             method="bounded",
-            options={"maxiter": _STEPS},
+            options={"maxiter": steps},
+            bounds=(max(start[0] - reach[0], low[0]), min(start[0] + reach[0], high[0])),
         )
         x, score = np.array([solution.x]), float(solution.fun)
-        whole = np.round(x)
-        if smooth[0].scale == "waves" and compute_loss(whole) < WHOLE * score:
-            return candidate.replace_nonlinear_parameters(smooth, whole)
+        whole, share = np.round(x), THRESHOLDS.whole_order_share
+        if smooth[0].scale == "waves" and compute_loss(whole) < share * score:
+            return candidate.set_parameters(smooth, whole)
     else:
         corners = np.vstack([start, start + 0.5 * np.diag(reach)])
-        solution = minimize(
-            compute_loss, start, method="Nelder-Mead",
-            options={"maxfev": _STEPS * 4, "initial_simplex": corners},
-        )  # fmt: skip
+        options = {"maxfev": 4 * steps, "initial_simplex": corners}
+        solution = minimize(compute_loss, start, method="Nelder-Mead", options=options)
         x, score = solution.x, float(solution.fun)
     better = score < compute_loss(start)
-    return (
-        candidate.replace_nonlinear_parameters(smooth, np.clip(x, low, high))
-        if better
-        else candidate
-    )
+    return candidate.set_parameters(smooth, np.clip(x, low, high)) if better else candidate
 
 
 def _find_lower_bound(state: State, shape: NonlinearParameter) -> float:
     """Coded; of a frequency the least at which a joint rings."""
-    return (
-        encode_parameter(shape, find_slowest_ringing(state)) if shape.scale == "hertz" else -np.inf
-    )
+    if shape.scale != "hertz":
+        return -np.inf
+    return encode_parameter(shape, find_slowest_ringing(state))
 
 
 def _compute_search_range(state: State, candidate: Candidate, shape: NonlinearParameter) -> float:
@@ -145,27 +115,6 @@ def _compute_reduction(state: State, candidate: Candidate) -> float:
 Tick = Callable[[], None]
 """Called whenever something is done."""
 
-STARTS = 4
-"""Grid values from which an effect with two shapes is refined: its fit has several summits."""
-
-AT_ONCE = 96
-"""Candidates whose columns are in memory together."""
-
-NEAR = 0.95
-"""Share of the best fall with which another fixed shape of an effect is refined too."""
-
-CLOSE = 0.7
-"""Rivals with this share of the best fall are refined before the best is chosen: up to `MANY`."""
-
-MANY = 5
-
-BETTER = 0.5
-"""What a refused effect may leave, over what it left then, to be asked for again: of two wrong
-drive gains, the second mends the first."""
-
-WORTH = 0.02
-"""Gain below which nothing is refined."""
-
 
 @dataclass(frozen=True, eq=False)
 class CandidateScan:
@@ -173,9 +122,9 @@ class CandidateScan:
 
     Attributes:
         state: it.
-        trials: candidates that show.
+        fits: candidates that show.
         best: every effect on every joint at the best of its shapes, none refined, best first.
-        refined: effects that were refined, by the shapes that this began with.
+        refined_scores: effects that were refined, by the shapes that this began with.
     """
 
     state: State
@@ -184,42 +133,39 @@ class CandidateScan:
     refined_scores: dict[tuple[Any, ...], ScoredCandidate] = field(default_factory=dict)
 
     def list_still_refused(self, refused: Sequence[ScoredCandidate]) -> list[ScoredCandidate]:
-        """Vetoed effects that have not become far better by the effect put in since."""
-        gains = {
-            candidate_score.key: candidate_score.variance_reduction for candidate_score in self.best
-        }
-        return [
-            j
-            for j in refused
-            if j.refines_model_term
-            or 1.0 - gains.get(j.key, 0.0) > BETTER * (1.0 - j.variance_reduction)
-        ]
+        """Lists vetoed effects that have not become far better since."""
+        gains = {score.key: score.variance_reduction for score in self.best}
+        most = THRESHOLDS.max_reconsidered_residual
+
+        def is_refused(score: ScoredCandidate) -> bool:
+            left = 1.0 - gains.get(score.key, 0.0)
+            return score.refines_model_term or left > most * (1.0 - score.variance_reduction)
+
+        return [score for score in refused if is_refused(score)]
 
     def exclude_vetoed(self, vetoed: Sequence[ScoredCandidate]) -> "CandidateScan":
-        """The same without what was vetoed."""
+        """Returns the same without what was vetoed."""
         touched = {t.candidate.key for t in self.fits if is_vetoed(t.candidate, vetoed)}
         if not touched:
             return self
         left = [t for t in self.fits if not is_vetoed(t.candidate, vetoed)]
         again = [t.candidate for t in select_best_fits(left) if t.candidate.key in touched]
-        columns = compute_candidate_columns(self.state, again)
-        candidate_scores = score_candidates(self.state, [*zip(again, columns, strict=True)])
-        best = [*(j for j in self.best if j.key not in touched), *candidate_scores]
+        scores = score_candidates(self.state, plausibility.pair_columns(self.state, again))
+        best = [*(j for j in self.best if j.key not in touched), *scores]
         best.sort(key=lambda j: -j.total_reduction)
         return CandidateScan(self.state, left, best, self.refined_scores)
 
     def judge_candidates(
         self, vetoed: Sequence[ScoredCandidate] = (), tick: Tick = lambda: None
     ) -> RankedCandidates:
-        """All but what was vetoed; the leading ones refined, with a tick after each."""
+        """Ranks all but what was vetoed; the leading ones are refined, with a tick after each."""
         left = self.exclude_vetoed(vetoed)
-        close = [
-            j
-            for j in left.best[:MANY]
-            if j.is_possible
-            and j.total_variance_reduction > CLOSE * left.best[0].total_variance_reduction
-            and j.variance_reduction > WORTH
-        ]
+        leading, least = (
+            left.best[: THRESHOLDS.max_refined_alternatives],
+            THRESHOLDS.min_refined_gain,
+        )
+        close = [j for j in leading if j.is_possible and j.is_near(leading[0])]
+        close = [j for j in close if j.variance_reduction > least]
         # Of effects that were not refined, only the best shapes may win still.
         refined = {}
         for item in close:
@@ -235,7 +181,7 @@ class CandidateScan:
     def refine_candidate(
         self, candidate_score: ScoredCandidate, starts: Sequence[Candidate]
     ) -> ScoredCandidate:
-        """An effect with its best shapes refined, or with the next best if these do better."""
+        """Refines the best parameters of an effect, or takes the next best."""
         state, first = self.state, candidate_score.candidate
         better = [refine_nonlinear_parameters(state, start) for start in starts]
         if better == [first]:
@@ -244,70 +190,62 @@ class CandidateScan:
         pairs = [(candidate, state.rows.build_columns(candidate)) for candidate in better]
         shown = [pair for pair in pairs if is_visible(pair[1])]
         (best,) = select_best_fits([*fit_candidates(state, shown), *others])
-        columns = next(
-            (shown_columns for candidate, shown_columns in shown if candidate is best.candidate),
-            None,
-        )
-        if columns is None:
-            (columns,) = compute_candidate_columns(state, [best.candidate])
-        return score_candidates(state, [(best.candidate, columns)])[0]
+        pair = next((pair for pair in shown if pair[0] is best.candidate), None)
+        if pair is None:
+            (pair,) = plausibility.pair_columns(state, [best.candidate])
+        return score_candidates(state, [pair])[0]
 
     def list_starts(self, first: Candidate) -> list[Candidate]:
-        """Shapes of one effect from which refining starts, the best first.
+        """Lists the parameters of one effect from which refining starts, the best first.
 
         With one shape to refine, the best for each value of the others, if it comes near; with
         more, the best few.
         """
-        refined = [
-            s.name for s in first.form.nonlinear_parameters if s.is_continuous and len(s.grid) > 1
-        ]
-        if len(first.form.nonlinear_parameters) < 2 or not refined:
+        shapes = first.form.nonlinear_parameters
+        refined = [s.name for s in shapes if s.is_continuous and len(s.grid) > 1]
+        if len(shapes) < 2 or not refined:
             return [first]
         every = [t for t in self.fits if t.candidate.key == first.key]
         possible_fits = [t for t in every if t.is_possible] or every
         falls = np.array([trial.total_reduction for trial in possible_fits])
-        least = NEAR * float(falls.max()) if len(refined) == 1 else -np.inf
+        least = THRESHOLDS.start_share * float(falls.max()) if len(refined) == 1 else -np.inf
         near = [possible_fits[k].candidate for k in np.argsort(-falls) if falls[k] >= least]
         order = [first, *(c for c in near if c is not first)]
         if len(refined) > 1:
-            return order[:STARTS]
+            return order[: THRESHOLDS.max_starts]
         best: dict[tuple[float, ...], Candidate] = {}
         for c in order:
-            best.setdefault(
-                tuple(v for n, v in c.nonlinear_parameters.items() if n != refined[0]), c
-            )
+            others = (v for n, v in c.nonlinear_parameters.items() if n != refined[0])
+            best.setdefault(tuple(others), c)
         return list(best.values())
 
 
 def scan_catalogue(
     state: State, without: Sequence[str] = (), only: str | None = None, joint: str | None = None
 ) -> CandidateScan:
-    """All candidates in a state, or those of one effect, or of one joint."""
-    return scan_candidates(
-        state, [c for c in generate_candidates(state, only, without) if joint in (None, c.joint)]
-    )
+    """Scans all candidates in a state, or those of one effect, or of one joint."""
+    every = generate_candidates(state, only, without)
+    return scan_candidates(state, [c for c in every if joint in (None, c.joint)])
 
 
 def scan_candidates(state: State, candidates: Sequence[Candidate]) -> CandidateScan:
-    """Some candidates in a state; those that show."""
+    """Scans some candidates in a state."""
     trials, best = dict[int, CandidateFit](), dict[int, ScoredCandidate]()
     place = {id(candidate): k for k, candidate in enumerate(candidates)}
-    for some in batch_candidates(candidates, AT_ONCE):  # their columns are never there all at once
-        every = zip(some, compute_candidate_columns(state, some), strict=True)
-        shown = {id(fits[0]): fits for fits in every if is_visible(fits[1])}
+    for some in batch_candidates(candidates, THRESHOLDS.scan_chunk):  # memory
+        pairs = plausibility.pair_columns(state, some)
+        shown = {id(pair[0]): pair for pair in pairs if is_visible(pair[1])}
         fits = fit_candidates(state, [*shown.values()]) if shown else []
         trials |= {place[id(t.candidate)]: t for t in fits}
-        candidate_scores = score_candidates(
-            state, [shown[id(t.candidate)] for t in select_best_fits(fits)]
-        )
-        best |= {id(j.candidate): j for j in candidate_scores}
+        leading = [shown[id(t.candidate)] for t in select_best_fits(fits)]
+        best |= {id(j.candidate): j for j in score_candidates(state, leading)}
     in_order = [trials[k] for k in sorted(trials)]
     first = [best[id(t.candidate)] for t in select_best_fits(in_order)]
     return CandidateScan(state, in_order, sorted(first, key=lambda j: -j.total_reduction))
 
 
 def is_vetoed(candidate: Candidate, vetoed: Sequence[ScoredCandidate]) -> bool:
-    """True if it was vetoed; of ripples, all orders that differ by less than a tenth."""
+    """Tells whether it was vetoed; of ripples, all orders within a tenth."""
     others = [candidate_score.candidate for candidate_score in vetoed]
     if not candidate.effect.several:
         return any(c.key == candidate.key for c in others if not c.effect.several)
@@ -316,23 +254,9 @@ def is_vetoed(candidate: Candidate, vetoed: Sequence[ScoredCandidate]) -> bool:
     return any(abs(order - m) < 0.1 * m for m in orders)
 
 
-MOST = 8
-"""Effects named in one diagnosis."""
-
-MUCH = 0.15
-"""Gain from which on an effect whose values are not those of this robot is a description still."""
-
-ASKED = 20
-"""Effects that are refused in one diagnosis before it ends: where held-out motion refuses that
-many, it is other motion, or the logs hold nothing that returns."""
-
-
 Veto = Callable[[State, State, ScoredCandidate], bool]
 """True if an effect does not lower the error on held-out logs: state without it, with it, the
 effect as it was judged."""
-
-CLEAR = 1.01
-"""Ratio of two errors that decides."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -340,10 +264,10 @@ class SearchStep(ShortRepr):
     """One effect that was put in.
 
     Attributes:
-        judged: the effect, and its numbers when it was chosen.
-        rivals: the others then, best first.
+        score: the effect, and its numbers when it was chosen.
+        alternatives: the others then, best first.
         before: the state it was chosen in.
-        ties: rivals that the data do not tell from it.
+        equivalents: rivals that the data do not tell from it.
     """
 
     score: ScoredCandidate
@@ -353,7 +277,7 @@ class SearchStep(ShortRepr):
 
     @property
     def candidate(self) -> Candidate:
-        """The effect on its joint, with its shapes."""
+        """Returns the effect on its joint, with its parameters."""
         return self.score.candidate
 
 
@@ -366,9 +290,9 @@ class Search(ShortRepr):
         steps: effects put in, in order; those that later ones made unnecessary are left out.
         end: the model with them.
         last: the judgement that ended it.
-        vetoed: effects that would have raised the error on held-out logs, when they led.
+        vetoed_candidates: effects that would have raised the error on held-out logs, when they led.
         without: what the user ruled out.
-        given: effects put in before, in another look; the start has them.
+        prior_steps: effects put in before, in another look; the start has them.
     """
 
     start: State
@@ -381,17 +305,17 @@ class Search(ShortRepr):
 
     @property
     def spec(self) -> ModuleSpec:
-        """What the robot is made of."""
+        """Returns the manifest of the robot."""
         return self.start.spec
 
     @property
     def catalogue(self) -> Sequence[Effect]:
-        """The effects that may be missing."""
+        """Returns the effects that may be missing."""
         return self.start.data.stated_effects.catalogue
 
     @property
     def ranked(self) -> tuple[ScoredCandidate, ...]:
-        """Rivals of the first effect that was put in, or all where none was; best first."""
+        """Returns alternatives of the first effect, or all where none was put in; best first."""
         return self.steps[0].alternatives if self.steps else self.last.ranked
 
 
@@ -399,12 +323,12 @@ def search_effects(
     data: SearchData,
     beta: np.ndarray,
     without: Sequence[str] = (),
-    most: int = MOST,
+    most: int = THRESHOLDS.max_effects,
     veto: Veto | None = None,
     tick: Tick = lambda: None,
     prior_steps: Sequence[SearchStep] = (),
 ) -> Search:
-    """Effects that the model lacks, one by one.
+    """Searches the effects that the model lacks, one by one.
 
     Args:
         data: training logs.
@@ -415,37 +339,30 @@ def search_effects(
         tick: called whenever something is done.
         prior_steps: effects that another look has put in.
     """
-    start = state = linearise_state(
-        build_state(data, [step.candidate for step in prior_steps], beta)
-    )
+    picks, nothing = [step.candidate for step in prior_steps], RankedCandidates((), None)
+    start = state = linearise_state(build_state(data, picks, beta))
     steps, refused, every = list[SearchStep](), list[ScoredCandidate](), list[ScoredCandidate]()
     if not most:
-        return Search(
-            start, (), state, RankedCandidates((), None), (), tuple(without), tuple(prior_steps)
-        )
+        return Search(start, (), state, nothing, (), tuple(without), tuple(prior_steps))
     survey = scan_catalogue(state, without)
     judgement = survey.judge_candidates((), tick)
-    while judgement.best is not None and len(steps) < most and len(every) < ASKED:
+    limit = THRESHOLDS.max_rejections
+    while judgement.best is not None and len(steps) < most and len(every) < limit:
         best = _choose_likeliest_gain(state, judgement.best, refused, without)
-        best, later = accept_candidate(
-            state, _choose_beside_prior(state, best, judgement, refused), veto
-        )
+        best = _choose_beside_prior(state, best, judgement, refused)
+        best, later = accept_candidate(state, best, veto)
         other = _choose_alternative(survey, refused, best, later, tick)
         if other is not None or later is None:
             refused, every = [*refused, best], [*every, best]
-            judgement = other or RankedCandidates((), None)
+            judgement = other or nothing
             continue
         survey = scan_catalogue(later, without)
-        doubted, refused = (
-            _find_displaced_candidates(refused, best),
-            survey.list_still_refused(refused),
-        )
+        doubted = _find_displaced_candidates(refused, best)
+        refused = survey.list_still_refused(refused)
         after = survey.judge_candidates(refused, tick)
         rivals = tuple(j for j in judgement.ranked if j.key != best.key)
-        equals = [
-            o for o in select_alternatives(best, rivals, after) if _is_covered(state, o, best)
-        ]
-        ties = (*equals, *doubted)
+        equals = select_alternatives(best, rivals, after)
+        ties = (*(other for other in equals if _is_covered(state, other, best)), *doubted)
         steps.append(SearchStep(best, rivals, state, ties))
         state, judgement = later, after
     needed_steps, state = _prune_steps(state, steps, start.picks, tick)
@@ -456,52 +373,44 @@ def search_effects(
 def _is_covered(state: State, other: ScoredCandidate, best: ScoredCandidate) -> bool:
     """True if with the other effect put in, little is left for the best one."""
     beside = build_state(state.data, [*state.picks, other.candidate], state.beta)
-    return _score_candidate(beside, best.candidate).total_reduction < SAME * best.total_reduction
+    left = _score_candidate(beside, best.candidate).total_reduction
+    return left < THRESHOLDS.equivalence_share * best.total_reduction
 
 
 def _find_displaced_candidates(
     refused: Sequence[ScoredCandidate], best: ScoredCandidate
 ) -> list[ScoredCandidate]:
     """What gave way to an effect that explains as much: for the data it is a tie."""
-    return [
-        candidate_score
-        for candidate_score in refused
-        if candidate_score.reason not in ("", DRIVES)
-        and NEARLY * candidate_score.total_variance_reduction
-        < best.total_variance_reduction
-        < candidate_score.total_variance_reduction / NEARLY
-    ]
-
-
-SHORT = 0.01
-"""s: a delay of all torques below is linear in the band of a diagnosis, and has a name there."""
+    least, share = THRESHOLDS.parsimony_share, best.total_share
+    doubted = [score for score in refused if score.reason not in ("", plausibility.DRIVES)]
+    return [s for s in doubted if least * s.total_share < share < s.total_share / least]
 
 
 def accept_candidate(
     state: State, best: ScoredCandidate, veto: Veto | None
 ) -> tuple[ScoredCandidate, State | None]:
-    """An effect that led, with what speaks against its values, and the state with it.
+    """Returns a leading effect with its caveat, and the state with it.
 
     The state is None where it is refused: `why` says why, if it is not by held-out motion.
     """
     later = extend_state(state, best.candidate)
-    if is_friction_driving(state, later, best.candidate):
-        return dataclasses.replace(best, is_possible=False, reason=DRIVES), None
+    if plausibility.is_friction_driving(state, later, best.candidate):
+        return replace(best, is_possible=False, reason=plausibility.DRIVES), None
     if veto is not None and veto(state, later, best):
         return best, None
-    if is_gain(best.candidate):  # of all, the likeliest; a unit or a sign is told with it
+    if plausibility.is_gain(best.candidate):  # a unit or a sign is reported with it
         return best, later
     pick, values = later.picks[-1], later.values[-1]
-    effect_values = describe_values(later, pick, values, np.zeros(len(values)))
-    why = find_caveat(later, pick, effect_values.value | dict(pick.nonlinear_parameters))
-    lags = Requirement.LAG in pick.effect.needs
-    short = (
-        lags and pick.joint is None and float(values[0]) * pick.nonlinear_parameters["tau"] < SHORT
-    )
+    why = plausibility.find_caveat(later, pick, name_parameters(later, pick, values))
+    short = Requirement.LAG in pick.effect.needs and pick.joint is None
+    if short:
+        delay = float(values[0]) * pick.nonlinear_parameters["tau"]
+        short = delay < THRESHOLDS.max_short_delay
     # A lag of no certain kind would take the place of what rounds torques too.
-    if why and (short or why.endswith(EITHER) or Requirement.TILT in pick.effect.needs):
-        return dataclasses.replace(best, reason=why), None
-    return dataclasses.replace(best, reason=why) if why else best, later
+    unsure = short or why.endswith(plausibility.EITHER)
+    if why and (unsure or Requirement.TILT in pick.effect.needs):
+        return replace(best, reason=why), None
+    return replace(best, reason=why) if why else best, later
 
 
 def _choose_alternative(
@@ -518,15 +427,11 @@ def _choose_alternative(
     if later is not None and not candidate_score.reason:
         return None
     without = survey.judge_candidates([*refused, candidate_score], tick)
-    if later is None or candidate_score.variance_reduction < MUCH:
+    if later is None or candidate_score.variance_reduction < THRESHOLDS.min_description_gain:
         return without
     best = without.best
-    return (
-        without
-        if best is not None
-        and best.total_variance_reduction > NEARLY * candidate_score.total_variance_reduction
-        else None
-    )
+    least = THRESHOLDS.parsimony_share * candidate_score.total_share
+    return without if best is not None and best.total_share > least else None
 
 
 def _choose_beside_prior(
@@ -543,11 +448,7 @@ def _choose_beside_prior(
     """
     first = judgement.best
     assert first is not None
-    near = [
-        j
-        for j in judgement.ranked
-        if j.is_significant and j.total_variance_reduction > CLOSE * first.total_variance_reduction
-    ]
+    near = [j for j in judgement.ranked if j.is_significant and j.is_near(first)]
     every = {j.key: j for j in (best, first, *near) if not is_vetoed(j.candidate, vetoed)}
     if state.data.prior is None or not best.candidate.is_local:
         return best
@@ -561,15 +462,14 @@ def _choose_beside_prior(
             least = scan.best[0]
             again = scan.refine_candidate(least, scan.list_starts(least.candidate)).candidate
             later = extend_state(state, again)
-            error = float(np.linalg.norm(later.gram_blocks.cross_validated_residuals[again.index]))
+            error = float(np.linalg.norm(later.gram_blocks.out_of_fold[again.index]))
             errors_by_key[key] = error * float(later.sigma[again.index]), again
     if not errors_by_key:
         return best
     likely = first.key if first.key in errors_by_key else best.key
-    key = min(
-        errors_by_key, key=lambda key: errors_by_key[key][0] * (1.0 if key == likely else CLEAR)
-    )
-    return _score_candidate(state, errors_by_key[key][1])
+    ratio = THRESHOLDS.min_clear_ratio
+    ends = [(e * (1.0 if key == likely else ratio), c) for key, (e, c) in errors_by_key.items()]
+    return _score_candidate(state, min(ends, key=lambda pair: pair[0])[1])
 
 
 def _choose_likeliest_gain(
@@ -579,148 +479,116 @@ def _choose_likeliest_gain(
 
     Ranks weigh the joints by what a model bent by a wrong gain leaves.
     """
-    if not is_gain(best.candidate):
+    if not plausibility.is_gain(best.candidate):
         return best
     every = generate_candidates(state, best.candidate.effect.id, without)
     gains = [c for c in every if not is_vetoed(c, vetoed)]
-    return _score_candidate(state, select_likeliest(state, gains) or best.candidate)
+    return _score_candidate(state, plausibility.select_likeliest(state, gains) or best.candidate)
 
 
 def _score_candidate(state: State, candidate: Candidate) -> ScoredCandidate:
-    (columns,) = compute_candidate_columns(state, [candidate])
-    return select_best(state, score_candidates(state, [(candidate, columns)])).ranked[0]
+    pairs = plausibility.pair_columns(state, [candidate])
+    return select_best(state, score_candidates(state, pairs)).ranked[0]
 
 
 def extend_state(state: State, pick: Candidate) -> State:
-    """The state with one effect more, linearised about its own parameters."""
-    picks, about = (*state.picks, pick), solve_parameters(state, pick)
+    """Extends the state by one effect, linearised about its own parameters."""
+    picks, about = (*state.picks, pick), plausibility.solve_parameters(state, pick)
     once = build_state(state.data, picks, state.beta if about is None else about)
     return linearise_state(once)
 
 
 def linearise_state(state: State) -> State:
-    """The state linearised about its own parameters."""
-    about = solve_parameters(state)
+    """Linearises the state about its own parameters."""
+    about = plausibility.solve_parameters(state)
     return build_state(state.data, state.picks, state.beta if about is None else about)
+
+
+class _Pruning:
+    """Drops and refines steps of a search beside picks that stay."""
+
+    def __init__(self, state: State, prior_picks: Sequence[Candidate], tick: Tick) -> None:
+        self.state, self.prior_picks, self.tick = state, prior_picks, tick
+
+    def build_state(self, steps: Iterable[SearchStep]) -> State:
+        """Builds the state with these steps."""
+        picks = [*self.prior_picks, *(step.candidate for step in steps)]
+        return build_state(self.state.data, picks, self.state.beta)
+
+    def score_step(
+        self, steps: Sequence[SearchStep], step: SearchStep, candidate: Candidate | None = None
+    ) -> ScoredCandidate:
+        """Scores one of the steps, or another candidate in its place, beside the others."""
+        others = self.build_state(item for item in steps if item is not step)
+        return _score_candidate(others, candidate or step.candidate)
+
+    def drop_unneeded(self, steps: Sequence[SearchStep]) -> list[SearchStep]:
+        """Drops steps that the others made unnecessary, the weakest first, and scores the rest."""
+        needed = list(steps)
+        while needed and len(needed) + len(self.prior_picks) > 1:
+            scores = []
+            for step in needed:
+                scores.append(self.score_step(needed, step))
+                self.tick()
+            weakest = int(np.argmin([score.variance_reduction for score in scores]))
+            if scores[weakest].is_significant:
+                break
+            del needed[weakest]
+            self.state = self.build_state(needed)
+        if len(needed) < len(steps):
+            needed = [replace(s, score=self.score_step(needed, s)) for s in needed]
+        return needed
+
+    def drop_weakest(self, steps: Sequence[SearchStep]) -> list[SearchStep] | None:
+        """Drops the weakest step that others describe at other parameters; None without any."""
+        for step in sorted(steps, key=lambda step: step.score.variance_reduction):
+            rest = [item for item in steps if item is not step]
+            refined = [s for s in rest if s.candidate.joint == step.candidate.joint and _is_free(s)]
+            if refined:
+                rest = self.refine(rest, refined)
+                beside = self.build_state(rest)
+                candidate = refine_nonlinear_parameters(beside, step.candidate)
+                if not _score_candidate(beside, candidate).is_significant:
+                    return rest
+        return None
+
+    def refine(self, steps: Sequence[SearchStep], which: Sequence[SearchStep]) -> list[SearchStep]:
+        """Refines the parameters of some steps beside the others, in turn."""
+        refined = list(steps)
+        for i, step in enumerate(steps):
+            if step not in which:
+                continue
+            whole, candidate = self.build_state(refined), step.candidate
+            reduction = build_reduction_function(whole, len(self.prior_picks) + i)
+            for _ in range(THRESHOLDS.refinement_turns):  # each begins with large steps again
+                last = candidate
+                candidate = refine_nonlinear_parameters(whole, candidate, reduction)
+                if candidate == last:
+                    break
+            score = self.score_step(refined, refined[i], candidate)
+            refined[i] = replace(step, score=score)
+            self.tick()
+        return refined
+
+
+def _is_free(step: SearchStep) -> bool:
+    return any(step.candidate.can_refine(s) for s in step.candidate.form.nonlinear_parameters)
 
 
 def _prune_steps(
     state: State, steps: Sequence[SearchStep], prior_picks: Sequence[Candidate], tick: Tick
 ) -> tuple[list[SearchStep], State]:
-    """The effects that are needed, each at the shapes that are best beside all the others.
+    """The effects that are needed, each at the parameters that are best beside all the others.
 
-    A shape that was sought while others were missing leaves what one more effect describes: that is
-    dropped if the others on its joint, at shapes sought again without it, leave it nothing.
+    Parameters that were sought while others were missing leave what one more effect describes: that
+    is dropped if the others on its joint, refined again without it, leave it nothing.
     """
-    needed_steps, state = _eliminate_backward(state, steps, prior_picks, tick)
-    while (fewer := _drop_weakest(state, prior_picks, needed_steps, tick)) is not None:
-        needed_steps = fewer
-    if len(needed_steps) + len(prior_picks) > 1:
-        needed_steps = _refine_steps(
-            state,
-            prior_picks,
-            needed_steps,
-            [item for item in needed_steps if _has_free_shapes(item.candidate)],
-            tick,
-        )
-    picks = [*prior_picks, *(step.candidate for step in needed_steps)]
-    return needed_steps, state if picks == list(state.picks) else build_state(
-        state.data, picks, state.beta
-    )
-
-
-def _drop_weakest(
-    state: State, prior_picks: Sequence[Candidate], steps: Sequence[SearchStep], tick: Tick
-) -> list[SearchStep] | None:
-    """Without the weakest effect that others describe at other shapes; None if there is none."""
-    for step in sorted(steps, key=lambda step: step.score.variance_reduction):
-        rest = [item for item in steps if item is not step]
-        steps_to_refine = [
-            item
-            for item in rest
-            if item.candidate.joint == step.candidate.joint and _has_free_shapes(item.candidate)
-        ]
-        if steps_to_refine:
-            rest = _refine_steps(state, prior_picks, rest, steps_to_refine, tick)
-            beside = build_state(
-                state.data, [*prior_picks, *(s.candidate for s in rest)], state.beta
-            )
-            if not _score_candidate(
-                beside, refine_nonlinear_parameters(beside, step.candidate)
-            ).is_significant:
-                return rest
-    return None
-
-
-def _has_free_shapes(pick: Candidate) -> bool:
-    """True if its shapes may be others."""
-    return any(pick.can_refine(shape) for shape in pick.form.nonlinear_parameters)
-
-
-def _refine_steps(
-    state: State,
-    prior_picks: Sequence[Candidate],
-    steps: Sequence[SearchStep],
-    steps_to_refine: Sequence[SearchStep],
-    tick: Tick,
-) -> list[SearchStep]:
-    """The effects kept; some of them at their best shapes beside the others, in turn."""
-    refined_steps = list(steps)
-    for i, step in enumerate(steps):
-        if step in steps_to_refine:
-            picks = [*prior_picks, *(item.candidate for item in refined_steps)]
-            whole = build_state(state.data, picks, state.beta)
-            explained, pick = build_reduction_function(whole, len(prior_picks) + i), step.candidate
-            for _ in range(_TURNS):  # each begins with steps as large as those of the grid
-                pick, last = refine_nonlinear_parameters(whole, pick, explained), pick
-                if pick == last:
-                    break
-            candidate_score = _score_candidate(
-                _remove_step(state, prior_picks, refined_steps, refined_steps[i]), pick
-            )
-            refined_steps[i] = dataclasses.replace(step, score=candidate_score)
-            tick()
-    return refined_steps
-
-
-def _eliminate_backward(
-    state: State, steps: Sequence[SearchStep], prior_picks: Sequence[Candidate], tick: Tick
-) -> tuple[list[SearchStep], State]:
-    """Drops effects that the others made unnecessary, the weakest first; those given stay.
-
-    What the others gain is judged again then, beside those that are left.
-    """
-    remaining_steps = list(steps)
-    while remaining_steps and len(remaining_steps) + len(prior_picks) > 1:
-        candidate_scores = []
-        for step in remaining_steps:
-            candidate_scores.append(_score_step(state, prior_picks, remaining_steps, step))
-            tick()
-        weakest = int(np.argmin([j.variance_reduction for j in candidate_scores]))
-        if candidate_scores[weakest].is_significant:
-            break
-        del remaining_steps[weakest]
-        state = build_state(
-            state.data, [*prior_picks, *(s.candidate for s in remaining_steps)], state.beta
-        )
-    if len(remaining_steps) < len(steps):
-        remaining_steps = [
-            dataclasses.replace(s, score=_score_step(state, prior_picks, remaining_steps, s))
-            for s in remaining_steps
-        ]
-    return remaining_steps, state
-
-
-def _score_step(
-    state: State, prior_picks: Sequence[Candidate], steps: Sequence[SearchStep], step: SearchStep
-) -> ScoredCandidate:
-    """One of the effects, judged in the model with the others."""
-    return _score_candidate(_remove_step(state, prior_picks, steps, step), step.candidate)
-
-
-def _remove_step(
-    state: State, prior_picks: Sequence[Candidate], steps: Sequence[SearchStep], step: SearchStep
-) -> State:
-    """The state with all of the effects but one."""
-    others = [*prior_picks, *(s.candidate for s in steps if s is not step)]
-    return build_state(state.data, others, state.beta)
+    pruning = _Pruning(state, prior_picks, tick)
+    needed = pruning.drop_unneeded(steps)
+    while (fewer := pruning.drop_weakest(needed)) is not None:
+        needed = fewer
+    if len(needed) + len(prior_picks) > 1:
+        needed = pruning.refine(needed, [step for step in needed if _is_free(step)])
+    picks = [*prior_picks, *(step.candidate for step in needed)]
+    unchanged = picks == list(pruning.state.picks)
+    return needed, pruning.state if unchanged else pruning.build_state(needed)

@@ -9,6 +9,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from modeler.core.brief import ShortRepr
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import InternalState
 from modeler.numerics.filters import apply_biquad
 from modeler.regression import (
@@ -23,14 +24,8 @@ if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
 
 
-_STEP = 1e-5  # rad or m, of central differences
-_BESIDE = 2  # samples to both sides that a difference quotient of another reads
-
 EVERY = slice(None)
 """All samples of a stretch."""
-
-WINDOW = 2048
-"""Samples that are evaluated at a time."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,18 +46,18 @@ class SignalReference(ShortRepr):
 
     @cached_property
     def link_parameters(self) -> np.ndarray:
-        """(c,) beta of the links alone: no friction, rotors, offsets."""
+        """Returns beta of the links alone, (c,): no friction, rotors, offsets."""
         kinds = [base.kind for base in self.compiled.spec.base]
         return np.where([kind == "inertial" for kind in kinds], self.beta, 0.0)
 
     @cached_property
     def tilt_directions(self) -> list[tuple[np.ndarray, np.ndarray]] | None:
-        """`compute_tilt_basis` about this model."""
+        """Returns the basis of a tilt about this model."""
         return compute_tilt_basis(self)
 
     @cached_property
     def drive_parameters(self) -> np.ndarray:
-        """(2, J) viscous friction and rotor inertia of each joint, where they stand alone."""
+        """Returns viscous friction and rotor inertia of each joint, (2, J)."""
         spec = self.compiled.spec
         owner = {p.name: (p.effect, p.joint) for p in spec.standard}
         values = {
@@ -93,20 +88,20 @@ class Signals(ShortRepr):
 
     @property
     def step(self) -> float:
-        """Between samples, s."""
+        """Returns the time between samples, s."""
         return self.segment.step
 
     @cached_property
     def model_signals(self) -> np.ndarray | None:
-        """(n, m) what effects of the model read besides the motion."""
+        """Returns what effects of the model read besides the motion, (n, m)."""
         return compute_signals(self.reference.compiled, self.segment)
 
     def compute_base_regressor(self, window: slice) -> np.ndarray:
-        """(n, J, c) of the model, over a window of the samples."""
+        """Computes the base regressor (n, J, c) over a window of the samples."""
         return self.reference.compiled.base_regressor(*self._select_states(window))
 
     def compute_regressor(self, window: slice) -> np.ndarray:
-        """(n, J, p) by standard parameters."""
+        """Computes the regressor (n, J, p) by standard parameters."""
         return self.reference.compiled.regressor(*self._select_states(window))
 
     def _select_states(self, window: slice) -> tuple[np.ndarray | None, ...]:
@@ -115,15 +110,18 @@ class Signals(ShortRepr):
 
     @cached_property
     def column_maxima(self) -> np.ndarray:
-        """(p,) magnitude that each column of a standard parameter reaches."""
-        windows = [slice(k, k + WINDOW) for k in range(0, len(self.q), WINDOW)]
+        """Returns the largest magnitude of each column of a standard parameter, (p,)."""
+        windows = [
+            slice(k, k + THRESHOLDS.sample_window)
+            for k in range(0, len(self.q), THRESHOLDS.sample_window)
+        ]
         return np.asarray(
             np.max([np.abs(self.compute_regressor(w)).max(axis=(0, 1)) for w in windows], axis=0)
         )
 
     @cached_property
     def load(self) -> np.ndarray:
-        """(n, J) torque of the links, inertia and gravity."""
+        """Returns the torque (n, J) of the links, inertia and gravity."""
         ref = self.reference
         return ref.compiled.inverse_dynamics(
             self.q, self.v, self.a, ref.link_parameters, self.model_signals
@@ -131,22 +129,22 @@ class Signals(ShortRepr):
 
     @cached_property
     def static(self) -> np.ndarray:
-        """(n, J) torque of gravity."""
+        """Returns the torque (n, J) of gravity."""
         return self.reference.compiled.gravity(self.q, self.reference.link_parameters)
 
     @cached_property
     def torque(self) -> np.ndarray:
-        """(n, J) torque of the whole model, friction by the measured speeds."""
+        """Returns the torque (n, J) of the whole model, friction by the measured speeds."""
         ref = self.reference
         return ref.compiled.inverse_dynamics(self.q, self.v, self.a, ref.beta, self.model_signals)
 
     @cached_property
     def rate(self) -> np.ndarray:
-        """(n, J) time derivative of `torque`."""
+        """Returns the time derivative of `torque`, (n, J)."""
         return np.gradient(self.torque, self.step, axis=0)
 
     def compute_reversal_time(self, j: int, back: float) -> np.ndarray:
-        """(n,) s since joint j last turned back, by more than `back`."""
+        """Computes s (n,) since joint j last turned back, by more than `back`."""
         if (j, back) not in self._reversal_times:
             self._reversal_times[j, back] = compute_time_since_reversal(
                 self.q[:, j], self.step, back
@@ -159,16 +157,16 @@ class Signals(ShortRepr):
 
     @cached_property
     def coupling(self) -> np.ndarray:
-        """(n, variables, J) G of ud = G qd; only for robots with loops."""
+        """Returns G of ud = G qd, (n, variables, J); only for robots with loops."""
         return self.reference.compiled.coupling(self.q)
 
     @cached_property
     def time(self) -> np.ndarray:
-        """(n,) s."""
+        """Returns the time of effects, s, (n,)."""
         return self.segment.time - self.reference.time
 
     def select_other(self, name: str) -> np.ndarray:
-        """(n,) `v3`: position, speed or acceleration of a joint by its name."""
+        """Returns `v3`, (n,): position, speed or acceleration of a joint by its name."""
         motion, joints = (
             {"q": self.q, "v": self.v, "a": self.a},
             self.reference.compiled.spec.joints,
@@ -176,7 +174,7 @@ class Signals(ShortRepr):
         return motion[name[0]][:, [joint.name for joint in joints].index(name[1:])]
 
     def compute_temperature(self, joint: str) -> np.ndarray | None:
-        """(n,) K above the reference; None where the training logs have no such column.
+        """Computes K above the reference, (n,); None where training logs have no such column.
 
         0 where only another log lacks it: nobody knows better.
         """
@@ -190,17 +188,16 @@ class Signals(ShortRepr):
     def compute_memory_state(
         self, memory: InternalState, j: int, shapes: Mapping[str, float], followed: np.ndarray
     ) -> np.ndarray:
-        """(n,) inner state z on joint j, for shape parameters by name; what a lag follows, (n,)."""
+        """Computes inner state z (n,) on joint j from parameters and what a lag follows (n,)."""
         if memory.kind == "lag":
             return apply_lag(followed, self.step, shapes[memory.parameter])
         if memory.kind == "slip":
             return compute_bristle_state(self.q[:, j], shapes[memory.parameter])
-        return simulate_resonance(
-            self.load[:, j], self.step, shapes[memory.parameter], shapes[memory.damping]
-        )
+        frequency, damping = shapes[memory.parameter], shapes[memory.damping]
+        return simulate_resonance(self.load[:, j], self.step, frequency, damping)
 
     def compute_slopes(self, j: int) -> tuple[np.ndarray, ...]:
-        """(n, J) derivatives of the links' torque by q, v and a of joint j.
+        """Computes derivatives (n, J) of the links' torque by q, v and a of joint j.
 
         The torque is quadratic in v and linear in a: there differences are exact.
         """
@@ -215,16 +212,14 @@ class Signals(ShortRepr):
 
     def _compute_slope(self, j: int, kind: int) -> np.ndarray:
         model, beta = self.reference.compiled, self.reference.link_parameters
-        size = (_STEP, 1.0, 1.0)[kind]
+        size = (THRESHOLDS.position_step, 1.0, 1.0)[kind]
         step = np.zeros(self.q.shape[1])
         step[j] = size
         ahead, behind = [self.q, self.v, self.a], [self.q, self.v, self.a]
         ahead[kind] = ahead[kind] + step
         if kind == 2:
-            return (
-                model.inverse_dynamics(self.q, self.v, ahead[2], beta, self.model_signals)
-                - self.load
-            )
+            signals = self.model_signals
+            return model.inverse_dynamics(self.q, self.v, ahead[2], beta, signals) - self.load
         behind[kind] = behind[kind] - step
         if kind == 0:  # beside the last posture that closes the loops may be one that does not
             nearest = find_nearest_closed(model, ahead[0], behind[0])
@@ -238,7 +233,7 @@ class Signals(ShortRepr):
     def compute_displacement_torque(
         self, j: int, dq: np.ndarray, whole: bool = False, window: slice = EVERY
     ) -> np.ndarray:
-        """(m, J, k) torques that follow k small changes dq (n, k) of the position of joint j.
+        """Computes torques (m, J, k) that k small changes dq (n, k) of joint j cause.
 
         The derivative of the inverse dynamics of the links along (dq, dq', dq'').
 
@@ -249,8 +244,9 @@ class Signals(ShortRepr):
             window: m of the samples.
         """
         start, stop, _ = window.indices(len(dq))
-        first = max(0, start - _BESIDE)
-        dq, inside = dq[first : stop + _BESIDE], slice(start - first, stop - first)
+        first = max(0, start - THRESHOLDS.difference_reach)
+        dq = dq[first : stop + THRESHOLDS.difference_reach]
+        inside = slice(start - first, stop - first)
         torque = np.zeros((self.q.shape[1], stop - start, dq.shape[1]))
         if not dq.any():
             return torque.swapaxes(0, 1)
@@ -270,7 +266,7 @@ class Signals(ShortRepr):
 
 
 def apply_lag(x: np.ndarray, step: float, tau: float) -> np.ndarray:
-    """(n,) z of z' = (x - z)/tau, at rest under the first x; x is straight between its points.
+    """Returns z (n,) of z' = (x - z)/tau, at rest under the first x; x is piecewise linear.
 
     With p = exp(-step/tau), r = (1 - p) tau/step: z_k = p z_(k-1) + (1 - r) x_k + (r - p) x_(k-1).
     """
@@ -283,7 +279,7 @@ def apply_lag(x: np.ndarray, step: float, tau: float) -> np.ndarray:
 def simulate_resonance(
     load: np.ndarray, step: float, frequency: float, damping: float
 ) -> np.ndarray:
-    """(n,) z of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
+    """Returns z (n,) of z'' = w^2 (load - z) - 2 zeta w z', at rest under the first load."""
     numerator, denominator = _discretise_oscillator(step, frequency, damping)
     return np.asarray(load[0] + apply_biquad(load - load[0], numerator, denominator))
 
@@ -316,13 +312,8 @@ def _discretise_oscillator(
 # Gravity from another direction: torques for unit gravity across the one the model has.
 
 
-_STATES = 64
-_TILT_STEP = 1e-5  # rad or m, of central differences
-_SEEN = 1e-6
-
-
 def compute_tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
-    """(n, J, k): first the torques of unit gravity along two axes across the model's gravity.
+    """Computes torques (n, J, k) of unit gravity along two axes across gravity, then others.
 
     Of an arm that moves in a plane, along the one that it feels.
     The others belong to first moments that the model's gravity hides (those of a vertical first
@@ -336,16 +327,16 @@ def compute_tilt_columns(signals: Signals, window: slice = slice(None)) -> np.nd
 
 
 def compute_frame_slopes(model: "CompiledModel", q: np.ndarray) -> np.ndarray:
-    """(n, J, rows, 3, 4) d/dq_j of [R | p] of every moving row, by differences; q is (n, J)."""
+    """Computes d/dq_j of [R | p] of every moving row, (n, J, rows, 3, 4), by differences."""
     slopes = [
         model.forward_kinematics(q + step) - model.forward_kinematics(q - step)
-        for step in _TILT_STEP * np.eye(q.shape[1])
+        for step in THRESHOLDS.tilt_step * np.eye(q.shape[1])
     ]
-    return np.stack(slopes, axis=1) / (2.0 * _TILT_STEP)
+    return np.stack(slopes, axis=1) / (2.0 * THRESHOLDS.tilt_step)
 
 
 def compute_gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray) -> np.ndarray:
-    """(n, J) torque for gravity `axis`: -d/dq of axis . sum (M p + R MS).
+    """Computes the torque (n, J) for gravity `axis`: -d/dq of axis . sum (M p + R MS).
 
     Args:
         slopes: (n, J, rows, 3, 4) of `compute_frame_slopes`.
@@ -358,7 +349,7 @@ def compute_gravity_torque(slopes: np.ndarray, axis: np.ndarray, chi: np.ndarray
 
 
 def compute_tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.ndarray]] | None:
-    """Axes and first moments of the columns of `compute_tilt_columns`."""
+    """Computes axes and first moments of the columns of `compute_tilt_columns`."""
     model = reference.compiled
     if model.spec.closure is not None:
         return None
@@ -372,12 +363,13 @@ def compute_tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.
     for base, value in zip(model.spec.base, reference.link_parameters, strict=True):
         if base.column_of in place:
             chi[place[base.column_of]] = value
-    q = np.random.default_rng(3).uniform(-1.5, 1.5, (_STATES, len(model.spec.joints)))
+    size, least = (THRESHOLDS.tilt_states, len(model.spec.joints)), THRESHOLDS.min_tilt_torque
+    q = np.random.default_rng(3).uniform(-1.5, 1.5, size)
     unit = np.eye(3)
     slopes = compute_frame_slopes(model, q)
     along = np.column_stack([compute_gravity_torque(slopes, e, chi).ravel() for e in unit])
     target = model.gravity(q, reference.link_parameters).ravel()
-    if np.linalg.norm(target) <= _SEEN or np.linalg.norm(along) <= _SEEN:
+    if np.linalg.norm(target) <= least or np.linalg.norm(along) <= least:
         return None
     gravity = np.linalg.lstsq(along, target, rcond=None)[0]
     down = gravity / np.linalg.norm(gravity)
@@ -386,12 +378,9 @@ def compute_tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.
     across = across / np.linalg.norm(across)
     axes = (across, np.cross(down, across))
     # an arm that moves in a plane does not feel gravity across it
-    effective_axes = [
-        axis for axis in axes if np.linalg.norm(compute_gravity_torque(slopes, axis, chi)) > _SEEN
-    ]
-    return [(axis, chi) for axis in effective_axes] + _find_hidden_moments(
-        slopes, axes, down, len(rows)
-    )
+    torques = [(axis, compute_gravity_torque(slopes, axis, chi)) for axis in axes]
+    basis = [(axis, chi) for axis, torque in torques if np.linalg.norm(torque) > least]
+    return basis + _find_hidden_moments(slopes, axes, down, len(rows))
 
 
 def compute_tilt_axes(reference: SignalReference) -> np.ndarray:
@@ -414,7 +403,8 @@ def _find_hidden_moments(
         for k in (1, 2, 3):
             chi = np.zeros((rows, 4))
             chi[r, k] = 1.0
-            if np.linalg.norm(compute_gravity_torque(slopes, down, chi)) > _SEEN:
+            torque = compute_gravity_torque(slopes, down, chi)
+            if np.linalg.norm(torque) > THRESHOLDS.min_tilt_torque:
                 continue
             for axis in axes:
                 column = compute_gravity_torque(slopes, axis, chi).ravel()

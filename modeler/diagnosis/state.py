@@ -1,36 +1,30 @@
 """The analysis at one point of the search: what is in the model so far, and what it leaves."""
 
-import dataclasses
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from modeler import regression
 from modeler.core.brief import ShortRepr
 from modeler.core.manifest import ModuleSpec
-from modeler.diagnosis.candidates import Candidate, JointScale, StatedEffects, compute_scales
-from modeler.diagnosis.effect_columns import (
+from modeler.diagnosis import ranking
+from modeler.diagnosis.candidates import (
+    Candidate,
     Columns,
+    JointScale,
     Rows,
+    StatedEffects,
     build_rows,
+    compute_scales,
     count_columns,
-    expand_columns,
-)
-from modeler.diagnosis.ranking import (
-    GramBlocks,
-    Ranking,
-    TimeBlocks,
-    build_batch,
-    build_gram_blocks,
-    build_time_blocks,
-    estimate_sigma,
-    merge_blocks,
-    rank_candidates,
+    to_dense,
 )
 from modeler.diagnosis.signals import SignalReference
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import EffectTarget
 from modeler.estimation import Prior, build_prior, estimate_correlation
 from modeler.numerics.least_squares import (
@@ -38,19 +32,6 @@ from modeler.numerics.least_squares import (
     Reduction,
     compute_joint_whitening,
     reduce_rows,
-)
-from modeler.regression import (
-    THRESHOLDS,
-    ChosenProcessing,
-    CutoffSearch,
-    Log,
-    LogRepair,
-    Observation,
-    PreparedLogs,
-    Processing,
-    build_observation,
-    choose_cutoffs,
-    prepare_logs,
 )
 
 if TYPE_CHECKING:
@@ -64,41 +45,39 @@ class SearchData(ShortRepr):
     Attributes:
         compiled: the robot.
         observation: of the training logs, in the band of the analysis.
-        kept: (c,) base parameters where the robot has changed since their fit: those of the
+        fixed_parameters: (c,) base parameters where the robot has changed since the fit: those of
             links are not fitted again, friction and offsets are; None: all are fitted.
-        known: the effects that may be missing, and how motors are coupled.
+        stated_effects: the effects that may be missing, and how motors are coupled.
     """
 
     compiled: "CompiledModel"
-    observation: Observation
+    observation: regression.Observation
     fixed_parameters: np.ndarray | None = None
     stated_effects: StatedEffects = field(default_factory=StatedEffects)
 
     @property
     def spec(self) -> ModuleSpec:
-        """What the robot is made of."""
+        """Returns the manifest of the robot."""
         return self.compiled.spec
 
     @cached_property
-    def time_blocks(self) -> TimeBlocks:
-        """Blocks and folds."""
-        return build_time_blocks(self.observation)
+    def time_blocks(self) -> ranking.TimeBlocks:
+        """Returns blocks and folds."""
+        return ranking.build_time_blocks(self.observation)
 
     @cached_property
     def rows(self) -> Rows:
-        """All rows; effects are not linearised about anything yet."""
+        """Returns all rows; effects are not linearised about anything yet."""
         beta = np.zeros(len(self.spec.base))
-        return build_rows(
-            self.observation,
-            SignalReference(self.compiled, beta, *_find_references(self.observation)),
-        )
+        reference = SignalReference(self.compiled, beta, *_find_references(self.observation))
+        return build_rows(self.observation, reference)
 
     def linearise_rows(self, reference: SignalReference) -> Rows:
-        """The rows with effects linearised about a reference; the last few are remembered."""
+        """Returns the rows with effects linearised about a reference; the last few are cached."""
         key = reference.beta.tobytes(), _make_clock_key(reference)
         rows = self._row_cache.pop(key, None) or self.rows.replace_reference(reference)
         self._row_cache[key] = rows
-        if len(self._row_cache) > _REMEMBERED:
+        if len(self._row_cache) > THRESHOLDS.cached_references:
             del self._row_cache[next(iter(self._row_cache))]
         return rows
 
@@ -108,14 +87,14 @@ class SearchData(ShortRepr):
 
     @cached_property
     def free_columns(self) -> np.ndarray:
-        """Indices of the base columns that are fitted."""
+        """Returns the indices of the base columns that are fitted."""
         base = self.spec.base
         free = [i for i, b in enumerate(base) if self.fixed_parameters is None or b.kind in _FREE]
         return np.array(free, dtype=int)
 
     @cached_property
     def y(self) -> tuple[np.ndarray, ...]:
-        """(rows_j,) by joint: torques, less those of base parameters that are kept."""
+        """Returns torques, (rows_j,) by joint, less those of fixed base parameters."""
         if self.fixed_parameters is None:
             return self.rows.y
         fixed = self.fixed_parameters.copy()
@@ -124,26 +103,22 @@ class SearchData(ShortRepr):
 
     @cached_property
     def reduction(self) -> Reduction:
-        """Of the base columns that are fitted, and y."""
+        """Returns the reduction of the fitted base columns, and y."""
         return reduce_rows([w[:, self.free_columns] for w in self.rows.W], self.y)
 
     @cached_property
     def prior(self) -> Prior | None:
-        """What is known beforehand of the base parameters; None where they are kept."""
+        """Returns the prior of the base parameters; None where they are fixed."""
         return build_prior(self.spec) if self.fixed_parameters is None else None
 
     @cached_property
     def block_numbers(self) -> tuple[np.ndarray, ...]:
-        """(rows_j,) by joint, number of the block of time."""
+        """Returns the number of the block of time, (rows_j,) by joint."""
         used = self.observation.used
         return tuple(self.time_blocks.number[used[:, j]] for j in range(self.rows.joint_count))
 
 
 _FREE = ("friction", "offset")
-
-_STRONGER = 12  # times twice
-
-_REMEMBERED = 3  # references: that of a state, and those of the next
 
 
 def _make_clock_key(reference: SignalReference) -> tuple[Any, ...]:
@@ -161,7 +136,7 @@ class State(ShortRepr):
         reference: where effects are linearised.
         rows: motion, torque, base columns.
         extra: columns of the picks.
-        weighed: sigma and prior of another state, which are taken; None: its own.
+        adopted_weights: sigma and prior of another state, which are taken; None: its own.
     """
 
     data: SearchData
@@ -173,61 +148,56 @@ class State(ShortRepr):
 
     @property
     def spec(self) -> ModuleSpec:
-        """What the robot is made of."""
+        """Returns the manifest of the robot."""
         return self.data.spec
 
     @property
     def joint_names(self) -> list[str]:
-        """Of the joints."""
+        """Returns the names of the joints."""
         return [joint.name for joint in self.spec.joints]
 
     @cached_property
     def W(self) -> tuple[np.ndarray, ...]:
-        """(rows_j, f + extra) by joint: base columns that are fitted, then the picks'."""
+        """Returns fitted base columns, then the picks', (rows_j, f + extra) by joint."""
         if not self.extra and self.data.fixed_parameters is None:
             return self.rows.W
-        return tuple(
-            np.hstack(
-                [
-                    base[:, self.data.free_columns],
-                    *(expand_columns(e, j, len(base)) for e in self.extra),
-                ]
-            )
-            for j, base in enumerate(self.rows.W)
-        )
+        free, blocks = self.data.free_columns, []
+        for j, base in enumerate(self.rows.W):
+            extra = (to_dense(columns, j, len(base)) for columns in self.extra)
+            blocks.append(np.hstack([base[:, free], *extra]))
+        return tuple(blocks)
 
     @property
     def y(self) -> tuple[np.ndarray, ...]:
-        """(rows_j,) by joint: torques, less those of base parameters that are kept."""
+        """Returns torques, (rows_j,) by joint, less those of fixed base parameters."""
         return self.data.y
 
     @cached_property
-    def gram_blocks(self) -> GramBlocks:
-        """Of the model so far."""
+    def gram_blocks(self) -> ranking.GramBlocks:
+        """Returns the Gram matrices of the model so far, by block."""
         numbers, fold = self.data.block_numbers, self.data.time_blocks.fold
-        return build_gram_blocks(
-            self.W, self.y, self.sigma, numbers, fold, self.whitening_matrix, self.prior
-        )
+        known = numbers, fold, self.whitener, self.prior
+        return ranking.build_gram_blocks(self.W, self.y, self.sigma, *known)
 
     @cached_property
-    def fold_grams(self) -> GramBlocks:
-        """The same by folds."""
-        return merge_blocks(self.gram_blocks)
+    def fold_grams(self) -> ranking.GramBlocks:
+        """Returns the same by folds."""
+        return ranking.merge_blocks(self.gram_blocks)
 
     @cached_property
     def reduced_rows(self) -> ReducedRows:
-        """The rows of the model so far, reduced to few."""
+        """Returns the rows of the model so far, reduced to few."""
         return self.data.reduction.append_columns(self.extra)
 
     def replace_weights(self, later: "State") -> "State":
-        """The same beside the residuals and the prior of a state with more effects."""
+        """Returns the same with residuals and prior of a state with more effects."""
         first = self.prior.shape[1] - 1
         prior = later.prior[:, [*range(first), -1]]
-        return dataclasses.replace(self, adopted_weights=(later.sigma, prior))
+        return replace(self, adopted_weights=(later.sigma, prior))
 
     @cached_property
     def prior(self) -> np.ndarray:
-        """(k, f + extra + 1) rows of what is known beforehand, beside rows that repeat each other.
+        """Returns rows of prior knowledge, (k, f + extra + 1), beside autocorrelated rows.
 
         Rows of the logs count as if they were independent, and the prior as much more instead: by
         the sum of the autocorrelation of the residual, 1 + 2 sum_k r(k), of the middle joint. Where
@@ -239,23 +209,21 @@ class State(ShortRepr):
         columns, known = self.reduced_rows.W[0].shape[1], self.data.prior
         if known is None:
             return np.zeros((0, columns + 1))
-        every = zip(self.reduced_rows.W, estimate_sigma(self.reduced_rows), strict=True)
+        every = zip(self.reduced_rows.W, ranking.estimate_sigma(self.reduced_rows), strict=True)
         lengths = np.sqrt(sum(np.sum((w / s) ** 2, axis=0) for w, s in every))
         rows, observation = known.extend_rows(lengths), self.data.observation
         solution, sums = self._solve_with_prior(rows), [1.0]
         for j, (y, w) in enumerate(zip(self.y, self.W, strict=True)):
             if y.any():
-                r = estimate_correlation(
-                    observation, y - w @ solution, np.flatnonzero(observation.used[:, j])
-                )
+                used = np.flatnonzero(observation.used[:, j])
+                r = estimate_correlation(observation, y - w @ solution, used)
                 sums.append(max(1.0, 2.0 * float(r.sum()) - 1.0))
         repeats = float(np.median(sums[1:] or sums))
         tight: dict[str, float] = {}
-        for _ in range(_STRONGER):
+        for _ in range(THRESHOLDS.max_prior_steps):
             rows = known.scale_sigmas(tight).extend_rows(lengths) * repeats**0.5
-            nearer = known.find_unlikely_groups(
-                self._solve_with_prior(rows)[: len(self.data.free_columns)]
-            )
+            solution = self._solve_with_prior(rows)
+            nearer = known.find_unlikely_groups(solution[: len(self.data.free_columns)])
             if not nearer:
                 break
             tight |= {name: 0.5 * tight.get(name, 1.0) for name in nearer}
@@ -263,108 +231,101 @@ class State(ShortRepr):
 
     @cached_property
     def sigma(self) -> np.ndarray:
-        """(J,) rms residual of each joint."""
-        return (
-            estimate_sigma(self.reduced_rows, prior=self.prior)
-            if not self.adopted_weights
-            else self.adopted_weights[0]
-        )
+        """Returns the rms residual of each joint, (J,)."""
+        if self.adopted_weights:
+            return self.adopted_weights[0]
+        return ranking.estimate_sigma(self.reduced_rows, prior=self.prior)
 
     @cached_property
-    def whitening_matrix(self) -> np.ndarray:
-        """(f + extra, r) to orthonormal weighted columns."""
-        return compute_joint_whitening(
-            [*self.reduced_rows.W, self.prior[:, :-1]], np.append(self.sigma, 1.0)
-        )
+    def whitener(self) -> np.ndarray:
+        """Returns the transform to orthonormal weighted columns, (f + extra, r)."""
+        return self._compute_whitener(self.sigma, self.prior)
 
     @cached_property
     def solution(self) -> np.ndarray:
-        """(f + extra,) parameters on all rows, SI; first the base parameters that are fitted."""
-        return self._solve_weighted(self.whitening_matrix, self.sigma, self.prior)
+        """Returns the parameters on all rows (f + extra,), SI; first the fitted base parameters."""
+        return self._solve_weighted(self.whitener, self.sigma, self.prior)
 
     def _solve_weighted(
-        self, whitening_matrix: np.ndarray, sigma: np.ndarray, prior: np.ndarray
+        self, whitener: np.ndarray, sigma: np.ndarray, prior: np.ndarray
     ) -> np.ndarray:
-        if not whitening_matrix.shape[1]:
-            return np.zeros(len(whitening_matrix))
-        G, u = 1e-12 * np.eye(whitening_matrix.shape[1]), np.zeros(whitening_matrix.shape[1])
-        every = [*zip(self.reduced_rows.W, self.reduced_rows.y, sigma, strict=True),
-                 (prior[:, :-1], prior[:, -1], 1.0)]  # fmt: skip
+        if not whitener.shape[1]:
+            return np.zeros(len(whitener))
+        G, u = 1e-12 * np.eye(whitener.shape[1]), np.zeros(whitener.shape[1])
+        every = list(zip(self.reduced_rows.W, self.reduced_rows.y, sigma, strict=True))
+        every.append((prior[:, :-1], prior[:, -1], 1.0))
         for w, y, s in every:
-            columns = w @ (whitening_matrix / s)
+            columns = w @ (whitener / s)
             G, u = G + columns.T @ columns, u + columns.T @ (y / s)
-        return np.asarray(whitening_matrix @ np.linalg.solve(G, u))
+        return np.asarray(whitener @ np.linalg.solve(G, u))
+
+    def _compute_whitener(self, sigma: np.ndarray, prior: np.ndarray) -> np.ndarray:
+        blocks = [*self.reduced_rows.W, prior[:, :-1]]
+        return compute_joint_whitening(blocks, np.append(sigma, 1.0))
 
     def _solve_with_prior(self, prior: np.ndarray) -> np.ndarray:
         """The solution beside such rows of a prior."""
-        sigma = estimate_sigma(self.reduced_rows, prior=prior)
-        whitening_matrix = compute_joint_whitening(
-            [*self.reduced_rows.W, prior[:, :-1]], np.append(sigma, 1.0)
-        )
-        return self._solve_weighted(whitening_matrix, sigma, prior)
+        sigma = ranking.estimate_sigma(self.reduced_rows, prior=prior)
+        whitener = self._compute_whitener(sigma, prior)
+        return self._solve_weighted(whitener, sigma, prior)
 
     @cached_property
     def beta(self) -> np.ndarray:
-        """(c,) base parameters."""
-        beta = (
-            np.zeros(self.rows.W[0].shape[1])
-            if self.data.fixed_parameters is None
-            else self.data.fixed_parameters
-        )
-        beta = beta.copy()
+        """Returns the base parameters, (c,)."""
+        fixed = self.data.fixed_parameters
+        beta = np.zeros(self.rows.W[0].shape[1]) if fixed is None else fixed.copy()
         beta[self.data.free_columns] = self.solution[: len(self.data.free_columns)]
         return beta
 
     @cached_property
     def values(self) -> list[np.ndarray]:
-        """Parameters of each pick, SI."""
+        """Returns the parameters of each pick, SI."""
         ends = np.cumsum([len(self.data.free_columns), *map(count_columns, self.extra)])
         return [self.solution[first:last] for first, last in pairwise(ends)]
 
     @cached_property
     def residual(self) -> tuple[np.ndarray, ...]:
-        """(rows_j,) by joint, N m or N."""
+        """Returns the residuals, (rows_j,) by joint, N m or N."""
         return tuple(y - w @ self.solution for y, w in zip(self.y, self.W, strict=True))
 
     @property
     def torque(self) -> np.ndarray:
-        """(s, n) of the model, beside the rows that are used; of the others the measured one."""
+        """Returns the model's torque, (s, n), on used rows; elsewhere the measured one."""
         torque = self.data.observation.torque.copy()
-        for j, (used, left) in enumerate(
-            zip(self.data.observation.used.T, self.residual, strict=True)
-        ):
+        pairs = zip(self.data.observation.used.T, self.residual, strict=True)
+        for j, (used, left) in enumerate(pairs):
             torque[used, j] -= left
         return torque
 
     @cached_property
     def derived_cache(self) -> dict[Any, Any]:
-        """What was made of it, by name."""
+        """Returns what was derived from it, by name."""
         return {}
 
     @cached_property
     def joint_scales(self) -> list[JointScale]:
-        """What is large on each joint."""
+        """Returns the scale of each joint."""
         motion = (
             [getattr(s, name)[s.segment.whole] for s in self.rows.signals]
             for name in ("q", "v", "load")
         )
         return compute_scales(self.spec, *motion)
 
-    def rank_columns(self, every: Sequence[Columns]) -> Ranking:
-        """Candidates by their columns."""
-        return rank_candidates(self.gram_blocks, build_batch(self.gram_blocks, every))
+    def rank_columns(self, every: Sequence[Columns]) -> ranking.Ranking:
+        """Ranks candidates by their columns."""
+        base = self.gram_blocks
+        return ranking.rank_candidates(base, ranking.build_batch(base, every))
 
 
 def build_state(data: SearchData, picks: Sequence[Candidate], beta: np.ndarray) -> State:
-    """The analysis with these effects, linearised about beta (c,)."""
-    rows = data.linearise_rows(dataclasses.replace(data.rows.signals[0].reference, beta=beta))
-    return State(
-        data, tuple(picks), rows.signals[0].reference, rows, collect_pick_columns(rows, picks)
-    )
+    """Builds the analysis with these effects, linearised about beta (c,)."""
+    rows = data.linearise_rows(replace(data.rows.signals[0].reference, beta=beta))
+    columns = collect_pick_columns(rows, picks)
+    return State(data, tuple(picks), rows.signals[0].reference, rows, columns)
 
 
 def collect_pick_columns(rows: Rows, picks: Sequence[Candidate]) -> tuple[Columns, ...]:
-    """The columns of what was put in: remembered for every reference."""
+    """Collects the columns of what was put in, cached for every reference."""
     for pick in picks:
         if make_column_key(rows, pick) not in rows.reference_cache:
             rows.reference_cache[make_column_key(rows, pick)] = build_columns(rows, pick)
@@ -372,16 +333,17 @@ def collect_pick_columns(rows: Rows, picks: Sequence[Candidate]) -> tuple[Column
 
 
 def build_columns(rows: Rows, candidate: Candidate) -> Columns:
-    """The candidate's columns; those that do not depend on the model are computed once."""
+    """Builds the candidate's columns; those that do not depend on the model are cached."""
     return build_all_columns(rows, [candidate])[0]
 
 
 def build_all_columns(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]:
-    """The columns of many candidates: the shapes of one effect at once."""
+    """Builds the columns of many candidates: all parameters of one effect at once."""
     columns = {
-        id(c): rows.cache[key] for c in candidates
+        id(c): rows.cache[key]
+        for c in candidates
         if _is_model_independent(c) and (key := make_column_key(rows, c)) in rows.cache
-    }  # fmt: skip
+    }
     for every in _group_candidates([c for c in candidates if id(c) not in columns]):
         made = rows.build_batch(every) if len(every) > 1 else [rows.build_columns(every[0])]
         for candidate, candidate_columns in zip(every, made, strict=True):
@@ -391,21 +353,18 @@ def build_all_columns(rows: Rows, candidates: Sequence[Candidate]) -> list[Colum
     return [columns[id(candidate)] for candidate in candidates]
 
 
-KEPT = 2**27
-"""Bytes of columns that do not depend on the model, remembered for the next state."""
-
 _HELD = "bytes held"
 
 
 def _cache_columns(cache: dict[Any, Any], key: Any, columns: Columns) -> None:
     """As long as there is room for them."""
     held = cache.get(_HELD, 0) + sum(8 * c.size for c in columns if c is not None)
-    if held <= KEPT:
+    if held <= THRESHOLDS.max_cached_bytes:
         cache |= {_HELD: held, key: columns}
 
 
 def batch_candidates(candidates: Sequence[Candidate], most: int) -> Iterator[list[Candidate]]:
-    """Candidates whose columns are made together, about so many at a time."""
+    """Yields candidates whose columns are made together, about so many at a time."""
     some: list[Candidate] = []
     for group in _group_candidates(candidates):
         if some and len(some) + len(group) > most:
@@ -438,13 +397,10 @@ def _is_model_independent(candidate: Candidate) -> bool:
 
 
 def make_column_key(rows: Rows, candidate: Candidate) -> tuple[Any, ...]:
-    """What columns that do not depend on the model depend on."""
+    """Makes the key of columns that do not depend on the model."""
     shapes = tuple(sorted(candidate.nonlinear_parameters.items()))
-    clock = (
-        ()
-        if candidate.form.names.isdisjoint({"t", "T"})
-        else _make_clock_key(rows.signals[0].reference)
-    )
+    timed = not candidate.form.names.isdisjoint({"t", "T"})
+    clock = _make_clock_key(rows.signals[0].reference) if timed else ()
     return candidate.effect.id, candidate.joint, shapes, clock
 
 
@@ -453,7 +409,7 @@ _FIXED = (EffectTarget.JOINT, EffectTarget.MOTOR, EffectTarget.PASSIVE, EffectTa
 
 
 def is_visible(columns: Columns) -> bool:
-    """True if the columns are finite and none of them is zero throughout."""
+    """Tells whether the columns are finite and none of them is zero throughout."""
     parts = [c.T for c in columns if c is not None]
     if not parts or not len(parts[0]):
         return False
@@ -461,7 +417,7 @@ def is_visible(columns: Columns) -> bool:
     return bool(np.isfinite(square).all() and np.all(square > 0.0))
 
 
-def _find_references(observation: Observation) -> tuple[float, Mapping[str, float]]:
+def _find_references(observation: regression.Observation) -> tuple[float, Mapping[str, float]]:
     """The first time, and the mean temperature by joint where one is logged."""
     segments = [part.segment for part in observation.stretches]
     temperature = {}
@@ -477,16 +433,15 @@ def _find_references(observation: Observation) -> tuple[float, Mapping[str, floa
 # The logs as a diagnosis sees them: as far up as positions are more than noise, and quiet.
 
 
-BAND = 30.0
-"""Hz: highest cut-off of the parallel filter. Fits use a narrow band, where torque noise is least;
-ripple, elasticity, delays and reversals show above it."""
-
-
 def analyse_logs(
-    compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, band: float | None = None,
-    prepared: PreparedLogs | None = None, repair: LogRepair | None = None,
-) -> Observation:  # fmt: skip
-    """The observation of a diagnosis.
+    compiled: "CompiledModel",
+    logs: Sequence[regression.Log],
+    fitted: regression.Processing,
+    band: float | None = None,
+    prepared: regression.PreparedLogs | None = None,
+    repair: regression.LogRepair | None = None,
+) -> regression.Observation:
+    """Returns the observation of a diagnosis.
 
     With f0 where the positions drown in their noise, and c the parallel cut-off that the motion
     asks for, the parallel filter is at f0/2 within c and `BAND`, that of the positions at f0 and at
@@ -506,63 +461,70 @@ def analyse_logs(
 
 
 def observe_logs(
-    compiled: "CompiledModel", logs: Sequence[Log], prepared: PreparedLogs
-) -> Observation:
-    """The observation of logs whose band is chosen."""
-    return _select_whole_rows(build_observation(compiled, logs, prepared, every_joint=True))
+    compiled: "CompiledModel", logs: Sequence[regression.Log], prepared: regression.PreparedLogs
+) -> regression.Observation:
+    """Returns the observation of logs whose band is chosen."""
+    every = regression.build_observation(compiled, logs, prepared, every_joint=True)
+    return _select_whole_rows(every)
 
 
 def choose_band(
-    compiled: "CompiledModel", logs: Sequence[Log], fitted: Processing, band: float | None,
-    prepared: PreparedLogs | None = None, repair: LogRepair | None = None,
-) -> PreparedLogs:  # fmt: skip
-    """The logs, with the band that `analyse_logs` chooses."""
-    prepared = (prepared or prepare_logs(compiled.spec, logs, fitted, repair)).drop_commands()
+    compiled: "CompiledModel",
+    logs: Sequence[regression.Log],
+    fitted: regression.Processing,
+    band: float | None,
+    prepared: regression.PreparedLogs | None = None,
+    repair: regression.LogRepair | None = None,
+) -> regression.PreparedLogs:
+    """Prepares the logs in the band that `analyse_logs` chooses."""
+    prepared = prepared or regression.prepare_logs(compiled.spec, logs, fitted, repair)
+    prepared = prepared.drop_commands()
     noise = prepared.noise
     if "parallel_cutoff" not in fitted.chosen or not noise.moving:
         return prepared
     user_cutoff = None if "position_cutoff" in fitted.chosen else fitted.position_cutoff
-    asked = dataclasses.replace(
+    asked = replace(
         fitted, position_cutoff=user_cutoff, parallel_cutoff=None, decimation=None, edge=None
     )
-    wide, _ = choose_cutoffs(asked, prepared.pieces, noise)
+    wide, _ = regression.choose_cutoffs(asked, prepared.pieces, noise)
     motion = wide.parallel_cutoff
-    highest = user_cutoff or THRESHOLDS.max_cutoff_share / max(
+    highest = user_cutoff or regression.THRESHOLDS.max_cutoff_share / max(
         piece.step for piece in prepared.pieces
     )
     if band is None:
-        parallel = max(motion, min(BAND, 0.5 * highest, 0.5 * noise.cutoff))
+        parallel = max(motion, min(THRESHOLDS.max_band, 0.5 * highest, 0.5 * noise.cutoff))
         position = max(wide.position_cutoff, 2.0 * parallel)
     else:
         parallel = max(motion, min(band, 0.8 * highest))
         position = 1.25 * parallel if band else wide.position_cutoff
-    prepared = dataclasses.replace(prepared, processing=wide)
+    prepared = replace(prepared, processing=wide)
     prepared = prepared.set_cutoffs(user_cutoff or min(position, highest), parallel)
-    quiet_cutoffs = CutoffSearch(compiled, prepared).find_chatter_free(
-        motion, user_cutoff is not None
-    )
+    cutoffs = regression.CutoffSearch(compiled, prepared)
+    quiet_cutoffs = cutoffs.find_chatter_free(motion, user_cutoff is not None)
     prepared = prepared.set_cutoffs(quiet_cutoffs.position, quiet_cutoffs.parallel)
     if any(log.check is not None for log in prepared.logs):  # in the band of the rows
-        prepared = prepare_logs(compiled.spec, logs, prepared.processing, repair).drop_commands()
+        again = regression.prepare_logs(compiled.spec, logs, prepared.processing, repair)
+        prepared = again.drop_commands()
     return prepared
 
 
 def observe_in_band(
-    compiled: "CompiledModel", logs: Sequence[Log], processing: ChosenProcessing
-) -> Observation:
-    """Other logs in the band of a diagnosis."""
-    return observe_logs(
-        compiled, logs, prepare_logs(compiled.spec, logs, processing).drop_commands()
-    )
+    compiled: "CompiledModel",
+    logs: Sequence[regression.Log],
+    processing: regression.ChosenProcessing,
+) -> regression.Observation:
+    """Returns other logs in the band of a diagnosis."""
+    prepared = regression.prepare_logs(compiled.spec, logs, processing)
+    return observe_logs(compiled, logs, prepared.drop_commands())
 
 
 def get_cutoff(data: SearchData) -> float:
-    """Hz of the parallel filter."""
+    """Returns the cut-off of the parallel filter, Hz."""
     return data.observation.report.processing.parallel_cutoff or 0.0
 
 
-def describe_bands(fitted: Processing, processing: Processing) -> list[str]:
-    """A sentence on the band of a diagnosis where it is not that of the fit."""
+def describe_bands(fitted: regression.Processing, processing: regression.Processing) -> list[str]:
+    """Describes the band of a diagnosis where it is not that of the fit."""
     if processing.parallel_cutoff == fitted.parallel_cutoff:
         return []
     if (processing.parallel_cutoff or 0.0) < (fitted.parallel_cutoff or 0.0):
@@ -577,12 +539,11 @@ def describe_bands(fitted: Processing, processing: Processing) -> list[str]:
         )
     return [
         f"errors and values are those up to {processing.parallel_cutoff:.3g} Hz, beside all "
-        "effects "
-        f"named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: {why}"
+        f"effects named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: {why}"
     ]
 
 
-def _select_whole_rows(observation: Observation) -> Observation:
+def _select_whole_rows(observation: regression.Observation) -> regression.Observation:
     """Only whole rows, if there are any."""
     used = observation.whole
     return observation.select_rows(used) if used.any() else observation

@@ -1,19 +1,15 @@
-from .clearance import (
+from .limits import (
     BASE as BASE,
-    SAMPLES as SAMPLES,
+    Box as Box,
     Clearance as Clearance,
     ClosestApproach as ClosestApproach,
     CollisionGeometry as CollisionGeometry,
+    LimitExcess as LimitExcess,
+    MotionBounds as MotionBounds,
     exclude_neighbours as exclude_neighbours,
     find_closest_approach as find_closest_approach,
+    find_exceeded_limits as find_exceeded_limits,
 )
-from .criterion import (
-    PriorInformation as PriorInformation,
-    compute_condition as compute_condition,
-    compute_signals as compute_signals,
-)
-from .limit_check import LimitExcess as LimitExcess, find_exceeded_limits as find_exceeded_limits
-from .motion import Box as Box, MotionBounds as MotionBounds
 from .result import (
     ExcitingMotion as ExcitingMotion,
     InformationGain as InformationGain,
@@ -23,6 +19,7 @@ from .result import (
     format_csv as format_csv,
 )
 from .search import (
+    ExcitationTask as ExcitationTask,
     MotionRequest as MotionRequest,
     build_task as build_task,
     choose_harmonics as choose_harmonics,
@@ -35,4 +32,9 @@ from .separate import (
     choose_motions as choose_motions,
     design_discriminating_motion as design_discriminating_motion,
 )
-from .task import ExcitationTask as ExcitationTask
+from .series import (
+    PriorInformation as PriorInformation,
+    compute_condition as compute_condition,
+    compute_signals as compute_signals,
+)
+from .thresholds import THRESHOLDS as THRESHOLDS

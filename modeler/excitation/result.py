@@ -15,14 +15,10 @@ from modeler.core.errors import DataError
 from modeler.core.result import Result
 from modeler.core.table import align_columns
 from modeler.core.toml_cells import join_names
-from modeler.excitation.clearance import ClosestApproach
-from modeler.excitation.criterion import compute_signals
-from modeler.excitation.families import MotionSeries, export_coefficients
-from modeler.excitation.motion import MotionBounds
+from modeler.excitation.limits import ClosestApproach, MotionBounds
+from modeler.excitation.series import MotionSeries, compute_signals, export_coefficients
+from modeler.excitation.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel
-
-_TOLD = 12  # parameters of a gain, for people
-_DIGITS = 13  # after the point: rest is 0, not a rounding of it
 
 
 @dataclass(frozen=True)
@@ -81,20 +77,21 @@ class InformationGain(ShortRepr):
     condition: tuple[float, float]
 
     def format_lines(self) -> list[str]:
-        """Lines of text: what gains most, first."""
+        """Formats lines of text: what gains most, first."""
         rows = []
         for name, unit, a, b in zip(self.names, self.units, self.before, self.after, strict=True):
             cells = ["not told" if value is None else f"{value:.3g}" for value in (a, b)]
             gain = a / b if a and b else np.inf if b else 1.0
             rows.append((gain, (name, *cells, unit, f"/ {gain:.3g}" if a and b else "")))
         rows.sort(key=lambda row: -row[0])
-        head, shown = ("parameter", "sigma before", "expected after", "unit", ""), rows[:_TOLD]
+        count = THRESHOLDS.max_listed_parameters
+        head, shown = ("parameter", "sigma before", "expected after", "unit", ""), rows[:count]
         table = align_columns([head, *(cells for _, cells in shown)], (0, 3))
         return [
             f"beside {', '.join(self.logs)}: condition number with columns of length one "
             "{:.4g} before, {:.4g} with it; it sharpens".format(*self.condition),
             *(line.rstrip() for line in table),
-            *([f"and {len(rows) - _TOLD} others, less"] if len(rows) > _TOLD else []),
+            *([f"and {len(rows) - count} others, less"] if len(rows) > count else []),
         ]
 
     def to_json(self) -> dict[str, Any]:
@@ -115,19 +112,19 @@ class ExcitingMotion(Result):
     Attributes:
         robot: name.
         bounds: its limits.
-        wish: what was asked for.
+        request: what was asked for.
         series: of the motion.
         x: (J, 2 K - 1) its coefficients.
         quality: of it.
-        drawn: random motions that it is compared with, as large as limits allow.
+        random_count: random motions that it is compared with, as large as limits allow.
         random: best and median condition number of them.
         random_log_det: the best of them.
-        used: of the limits.
+        usage: of the limits.
         columns: names of the parameters that count.
         beta: (c,) for torques; None where unknown.
         ended_early: True if the time limit ended the search.
         seconds: that it took.
-        nearest: where links come closest; None where they are not looked at.
+        closest_approach: where links come closest; None where they are not looked at.
         gain: what it adds to logs; None without.
     """
 
@@ -149,7 +146,7 @@ class ExcitingMotion(Result):
     gain: InformationGain | None = None
 
     def sample_motion(self, rate: float) -> dict[str, np.ndarray]:
-        """Columns by name: time, q, qd and qdd of every joint, from rest to rest."""
+        """Samples time, q, qd and qdd of every joint, from rest to rest, by name."""
         laps, period = int(self.request["laps"]), self.series.duration
         count = int(np.ceil(laps * period * rate - 1e-9)) + 1
         times = np.arange(count) / rate
@@ -158,19 +155,18 @@ class ExcitingMotion(Result):
         here, columns = self.series.resample_at(place).evaluate_motion(self.x), {"time": times}
         for prefix, values in zip(("q", "qd", "qdd"), here, strict=True):
             for j, name in enumerate(self.bounds.joints):
-                columns[f"{prefix}{name}"] = np.round(values[:, j], _DIGITS) + 0.0
+                columns[f"{prefix}{name}"] = np.round(values[:, j], THRESHOLDS.sample_digits) + 0.0
         return columns
 
     def format_lines(self) -> list[str]:
-        """Lines of text."""
+        """Formats lines of text."""
         best, median = self.random
         lines = [
             f"condition number {self.quality.condition:.4g} with columns of length one "
             f"({self.quality.condition_raw:.4g} as they are); best of {self.random_count} random "
             f"motions {best:.4g}, median {median:.4g}",
             f"log det of the information {self.quality.log_det:.5g}, best of {self.random_count} "
-            "random "
-            f"{self.random_log_det:.5g}",
+            f"random {self.random_log_det:.5g}",
             f"{'joint':<6}{'positions':>20}{'of limits':>20}{'speed':>14}{'acceleration':>16}"
             f"{'torque':>16}",
         ]
@@ -188,8 +184,7 @@ class ExcitingMotion(Result):
         if b.assumed:
             lines.append(
                 f"no limits are stated for {join_names(b.assumed)}: those above are assumed; "
-                "correct "
-                "them by [limits] or --limit before a robot moves"
+                "correct them by [limits] or --limit before a robot moves"
             )
         if u.loops is not None:
             lines.append(
@@ -229,9 +224,7 @@ class ExcitingMotion(Result):
             "boxes": [vars(box) for box in b.boxes],
             "posture_share": u.posture,
             "singular_share": u.loops,
-            "clearance": None
-            if b.clearance is None
-            else b.clearance.to_json(self.closest_approach),
+            "clearance": b.clearance and b.clearance.to_json(self.closest_approach),
             "ended_early": self.ended_early,
             "next": None if self.gain is None else self.gain.to_json(),
             "series": export_coefficients(self.series, self.x, b.joints),
@@ -239,20 +232,19 @@ class ExcitingMotion(Result):
 
 
 def encode_parquet(columns: Mapping[str, np.ndarray]) -> bytes:
-    """Columns as Parquet."""
+    """Encodes columns as Parquet."""
     buffer = io.BytesIO()
     pq.write_table(pa.table({name: pa.array(values) for name, values in columns.items()}), buffer)
     return buffer.getvalue()
 
 
 def format_csv(columns: Mapping[str, np.ndarray]) -> str:
-    """Columns as CSV, every digit that counts."""
+    """Formats columns as CSV, twelve digits."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(columns)
-    writer.writerows(
-        [f"{value:.12g}" for value in row] for row in np.column_stack([*columns.values()])
-    )
+    rows = np.column_stack([*columns.values()])
+    writer.writerows([f"{value:.12g}" for value in row] for row in rows)
     return out.getvalue()
 
 
@@ -275,19 +267,23 @@ def _format_range(low: float, high: float) -> str:
 
 KINDS = ("png", "svg", "pdf")
 
-_SAMPLES = 800
 _SETTINGS: Any = {
-    "font.size": 9, "axes.spines.top": False, "axes.spines.right": False,
-    "axes.titlelocation": "left", "axes.titlesize": 9.5, "svg.hashsalt": "modeler",
-}  # fmt: skip
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlelocation": "left",
+    "axes.titlesize": 9.5,
+    "svg.hashsalt": "modeler",
+}
 _NO_DATE: dict[str, dict[str, None]] = {
-    "png": {"Software": None}, "svg": {"Date": None, "Creator": None},
+    "png": {"Software": None},
+    "svg": {"Date": None, "Creator": None},
     "pdf": {"CreationDate": None, "Producer": None, "Creator": None},
-}  # fmt: skip
+}
 
 
 def check_picture_kind(name: str) -> str:
-    """The kind of picture that a file name asks for.
+    """Returns the kind of picture that a file name asks for.
 
     Raises:
         DataError: none of ours.
@@ -299,7 +295,7 @@ def check_picture_kind(name: str) -> str:
 
 
 def draw_motion(motion: ExcitingMotion, compiled: CompiledModel, kind: str) -> bytes:
-    """Position, speed, acceleration and torque of every joint, each as a share of its limit.
+    """Draws position, speed, acceleration and torque of every joint as shares of limits.
 
     Torques have a panel where parameters are known; where a joint has no limit they are shown as
     shares of their largest value.
@@ -313,7 +309,7 @@ def draw_motion(motion: ExcitingMotion, compiled: CompiledModel, kind: str) -> b
         figure = Figure(figsize=(10.0, 1.0 + 1.9 * len(panels)), layout="constrained")
         FigureCanvasAgg(figure)
         axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
-        time = np.linspace(0.0, motion.series.duration, _SAMPLES)
+        time = np.linspace(0.0, motion.series.duration, THRESHOLDS.picture_samples)
         for axis, (title, shares) in zip(axes, panels, strict=True):
             for wall in (-1.0, 1.0):
                 axis.axhline(wall, color="0.4", linewidth=0.8, linestyle="--")
@@ -327,8 +323,11 @@ def draw_motion(motion: ExcitingMotion, compiled: CompiledModel, kind: str) -> b
         figure.suptitle(
             f"{motion.robot}: condition number {motion.quality.condition:.3g}, best of "
             f"{motion.random_count} random {motion.random[0]:.3g}",
-            x=0.01, ha="left", fontweight="bold", fontsize=11,
-        )  # fmt: skip
+            x=0.01,
+            ha="left",
+            fontweight="bold",
+            fontsize=11,
+        )
         stream = io.BytesIO()
         figure.savefig(stream, format=kind, dpi=120, metadata=_NO_DATE[kind])
         return stream.getvalue()
@@ -336,7 +335,7 @@ def draw_motion(motion: ExcitingMotion, compiled: CompiledModel, kind: str) -> b
 
 def _build_panels(motion: ExcitingMotion, compiled: CompiledModel) -> list[tuple[str, np.ndarray]]:
     b = motion.bounds
-    time = np.linspace(0.0, motion.series.duration, _SAMPLES)
+    time = np.linspace(0.0, motion.series.duration, THRESHOLDS.picture_samples)
     q, qd, qdd = motion.series.resample_at(time).evaluate_motion(motion.x)
     panels = [
         ("position: -1 and 1 are the ends of the range", (q - b.mid_range) / b.half_range),

@@ -19,25 +19,21 @@ from modeler.diagnosis import (
     expand_grid,
 )
 from modeler.effects import Effect, EffectTarget
-from modeler.excitation.criterion import compute_condition
-from modeler.excitation.motion import MotionBounds
+from modeler.excitation.limits import MotionBounds
 from modeler.excitation.result import ExcitingMotion
 from modeler.excitation.search import (
     Deadline,
+    ExcitationTask,
     MotionRequest,
     build_result,
     build_task,
     draw_motions,
 )
-from modeler.excitation.task import ExcitationTask
+from modeler.excitation.series import compute_condition
+from modeler.excitation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import minimise_cma_es
 from modeler.regression import Segment
 from modeler.runtime import CompiledModel
-
-_GENERATIONS = 150
-_FIRST = 0.15  # of the half ranges: size of the first steps
-_ENTRIES = 5  # shapes of an effect that are looked at, spread over its grid
-_NOTHING = 1e-14  # share of a column that is rounding
 
 Whose = tuple[Effect, str]
 """An effect on a joint."""
@@ -64,9 +60,9 @@ class Discrimination:
 
     Attributes:
         names: of the effects.
-        left: of the torque of each, the share (of its norm) that neither the model nor the other
+        unexplained_share: of the torque of each, the share that neither model nor other
             effect can explain; for the shapes of the other that explain most.
-        random: the same of the best of the random motions.
+        random_share: the same of the best of the random motions.
         gain: by how much the unexplained torque itself is larger than on that motion.
     """
 
@@ -76,12 +72,11 @@ class Discrimination:
     gain: tuple[float, float]
 
     def format_lines(self) -> list[str]:
-        """Lines of text."""
+        """Formats lines of text."""
         return [
             f"{name}: {format_percent(here)} of its torque is explained by neither the model nor "
-            f"{other}; "
-            f"best of the random motions {format_percent(there)}; that part is {gain:.3g} times as "
-            "large"
+            f"{other}; best of the random motions {format_percent(there)}; that part is {gain:.3g} "
+            "times as large"
             for name, other, here, there, gain in zip(
                 self.names,
                 self.names[::-1],
@@ -109,7 +104,7 @@ def design_discriminating_motion(
     question: DiscriminationProblem,
     progress: Callable[[float], None] = lambda share: None,
 ) -> tuple[ExcitingMotion, Discrimination]:
-    """The motion along which two effects are least alike.
+    """Designs the motion along which two effects are least alike.
 
     Maximises what is left of each effect's columns after projection on the columns of the model
     and of the other effect, for the shapes of the other that leave least: geometric mean over
@@ -126,7 +121,7 @@ def design_discriminating_motion(
     best = min(deadline.iterate_in_time(x for x, _ in random_motions), key=columns.evaluate_motion)
 
     def report_progress(generation: int) -> bool:
-        progress(generation / _GENERATIONS)
+        progress(generation / THRESHOLDS.discrimination_generations)
         return deadline()
 
     unit = task.bounds.half_range[:, None]
@@ -136,8 +131,12 @@ def design_discriminating_motion(
 
     solution = minimise_cma_es(
         lambda flat: columns.evaluate_motion(restrict_motion(flat)),
-        (best / unit).ravel(), _FIRST, _GENERATIONS, rng, report_progress,
-    )  # fmt: skip
+        (best / unit).ravel(),
+        THRESHOLDS.first_step,
+        THRESHOLDS.discrimination_generations,
+        rng,
+        report_progress,
+    )
     motion = build_result(task, restrict_motion(solution), request, random_motions, deadline)
     x = motion.x
     (here, size), (there, before) = columns.compute_remainder(x), columns.compute_remainder(best)
@@ -181,11 +180,14 @@ class _EffectColumns:
             )
         j = bounds.joints.index(joint)
         scale = JointScale(
-            float(bounds.speed[j]), float(2.0 * bounds.half_range[j]), float(load[j]) or 1.0,
-            spec.joints[j].unit == "rad", float(bounds.mid_range[j]),
-        )  # fmt: skip
+            float(bounds.speed[j]),
+            float(2.0 * bounds.half_range[j]),
+            float(load[j]) or 1.0,
+            spec.joints[j].unit == "rad",
+            float(bounds.mid_range[j]),
+        )
         every = list(expand_grid(effect, form, joint, j, scale))
-        places = np.unique(np.linspace(0, len(every) - 1, _ENTRIES).astype(int))
+        places = np.unique(np.linspace(0, len(every) - 1, THRESHOLDS.grid_entries).astype(int))
         return [every[k] for k in places]
 
     def _compute_signals(self, x: np.ndarray) -> Signals:
@@ -195,9 +197,17 @@ class _EffectColumns:
         step = self.task.series.duration / len(self.task.series.time)
         time = np.arange(len(q)) * step
         segment = Segment(
-            0, time, step, q, qd, qdd, 0.0 * q, {},
-            np.ones(len(q), dtype=bool), np.full(q.shape, -1),
-        )  # fmt: skip
+            0,
+            time,
+            step,
+            q,
+            qd,
+            qdd,
+            0.0 * q,
+            {},
+            np.ones(len(q), dtype=bool),
+            np.full(q.shape, -1),
+        )
         return Signals(segment, segment.valid, q, qd, qdd, self._reference)
 
     def _compute_blocks(self, x: np.ndarray) -> list[list[np.ndarray]]:
@@ -222,22 +232,24 @@ class _EffectColumns:
         beyond = [[block - Q @ (Q.T @ block) for block in group] for group in blocks]
         bases = [[np.linalg.qr(block)[0] for block in group] for group in beyond]
         squares = [
-            np.array([
-                min(np.sum((block - Q @ (Q.T @ block)) ** 2) for Q in bases[1 - k])
-                for block in beyond[k]
-            ])
+            np.array(
+                [
+                    min(np.sum((block - Q @ (Q.T @ block)) ** 2) for Q in bases[1 - k])
+                    for block in beyond[k]
+                ]
+            )
             for k in range(2)
-        ]  # fmt: skip
+        ]
         return blocks, squares
 
     def evaluate_motion(self, x: np.ndarray) -> float:
-        """Small where both are well told apart."""
+        """Returns a number that is small where both effects are discriminated."""
         _, squares = self._compute_unexplained(x)
         shares = itertools.chain(*(s / u for s, u in zip(squares, self._usual, strict=True)))
-        return -float(np.mean([np.log(max(share, _NOTHING)) for share in shares]))
+        return -float(np.mean([np.log(max(share, THRESHOLDS.rounding_share)) for share in shares]))
 
     def compute_remainder(self, x: np.ndarray) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Of each effect, the share of its columns that is left, and its size; means of shapes."""
+        """Computes, of each effect, the share of its columns that is left, and its size."""
         blocks, squares = self._compute_unexplained(x)
         shares, sizes = [], []
         for k in range(2):
@@ -248,10 +260,6 @@ class _EffectColumns:
 
 
 # Which of given motions to take: the subset with the smallest condition number.
-
-
-_ALL = 20_000
-"""Subsets that are looked at one by one; of more, the best is built up and exchanged."""
 
 
 @dataclass(frozen=True)
@@ -274,7 +282,7 @@ class MotionSubset:
 
 
 def choose_motions(rows: Sequence[np.ndarray], count: int) -> MotionSubset:
-    """The `count` motions whose rows together have the smallest condition number.
+    """Chooses the `count` motions whose rows together have the smallest condition number.
 
     How Guegan, Khalil and Lemoine 2003 (section 5) and Gautier and Khalil 1992 choose
     trajectories. All subsets where there are at most 20 000, else one motion after the other and
@@ -294,7 +302,7 @@ def choose_motions(rows: Sequence[np.ndarray], count: int) -> MotionSubset:
     def compute_subset_condition(places: Sequence[int]) -> float:
         return compute_condition(np.vstack([triangles[k] for k in places]))
 
-    exhaustive = math.comb(len(rows), count) <= _ALL
+    exhaustive = math.comb(len(rows), count) <= THRESHOLDS.max_subsets
     if exhaustive:
         best = min(itertools.combinations(range(len(rows)), count), key=compute_subset_condition)
     else:
@@ -341,8 +349,10 @@ def _exchange_motions(
     while improving:
         trials = [
             sorted([*(c for c in chosen if c != out), into])
-            for out in chosen for into in left if into not in chosen
-        ]  # fmt: skip
+            for out in chosen
+            for into in left
+            if into not in chosen
+        ]
         best = min(trials, key=compute_subset_condition)
         improving = compute_subset_condition(best) < here * (1.0 - 1e-12)
         if improving:

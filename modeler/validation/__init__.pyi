@@ -8,6 +8,31 @@ from .comparison import (
     format_or_dash as format_or_dash,
     tabulate_logs as tabulate_logs,
 )
+from .fleet import (
+    HEAD as HEAD,
+    Fleet as Fleet,
+    FleetFinding as FleetFinding,
+    QuantityHistory as QuantityHistory,
+    QuantityValues as QuantityValues,
+    analyse_fleet as analyse_fleet,
+    build_table_rows as build_table_rows,
+    describe_finding as describe_finding,
+    format_effect_title as format_effect_title,
+    format_fleet as format_fleet,
+    format_headline as format_headline,
+    format_skipped as format_skipped,
+)
+from .fleet_logs import (
+    LogJob as LogJob,
+    LogName as LogName,
+    LogSummary as LogSummary,
+    SkippedLog as SkippedLog,
+    arrange_logs as arrange_logs,
+    name_logs as name_logs,
+    read_log_list as read_log_list,
+    reduce_log as reduce_log,
+    summarise_log as summarise_log,
+)
 from .free_run import (
     FreeRunSettings as FreeRunSettings,
     Gains as Gains,

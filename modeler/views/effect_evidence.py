@@ -463,4 +463,4 @@ def compute_covariance(base: GramBlocks) -> np.ndarray:
     for columns, y, block in zip(base.whitened_columns, base.y, base.block, strict=True):
         np.add.at(scores, block, columns * (y - columns @ theta)[:, None])
     meat = scores.T @ scores * base.block_count / max(1, base.block_count - 1)
-    return np.asarray(base.whitening_matrix @ inverse @ meat @ inverse @ base.whitening_matrix.T)
+    return np.asarray(base.whitener @ inverse @ meat @ inverse @ base.whitener.T)

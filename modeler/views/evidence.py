@@ -456,7 +456,7 @@ def draw_play_picture(state: diagnosis.State, j: int) -> Picture:
         np.abs(state.residual[j][near]),
         state.gram_blocks.block[j][near],
     )
-    panel = replace(panel, shade=(0.0, diagnosis.AFTER))
+    panel = replace(panel, shade=(0.0, diagnosis.THRESHOLDS.burst_duration))
     return Picture(
         f"evidence_backlash_{joint.name}",
         f"Play in the gear: joint {joint.name}",
@@ -496,8 +496,8 @@ def draw_push_picture(state: diagnosis.State, window: diagnosis.PushWindow) -> P
     left = seen.torque - seen.predict(state.beta)
     shown = (seen.run == window.log) & (seen.time > window.start - THRESHOLDS.push_margin)
     shown &= seen.time < window.end + THRESHOLDS.push_margin
-    masked = (seen.time > window.start - diagnosis.MARGIN) & (
-        seen.time < window.end + diagnosis.MARGIN
+    masked = (seen.time > window.start - diagnosis.THRESHOLDS.push_margin) & (
+        seen.time < window.end + diagnosis.THRESHOLDS.push_margin
     )
     left[~(seen.used | masked[:, None])] = np.nan  # reversals of a joint: nobody looks at them
     size = np.sqrt(np.mean(seen.torque**2, axis=0))

@@ -9,7 +9,19 @@ import numpy as np
 from modeler.core.figure import BLUE, COLORS, GREY, Curve, Heat, Means, Panel, Picture, Style
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Table, format_percent
-from modeler.fleet import Fleet, FleetFinding, QuantityHistory, QuantityValues, result
+from modeler.validation import (
+    HEAD,
+    Fleet,
+    FleetFinding,
+    QuantityHistory,
+    QuantityValues,
+    build_table_rows,
+    describe_finding,
+    format_effect_title,
+    format_fleet,
+    format_headline,
+    format_skipped,
+)
 from modeler.views import page
 from modeler.views.figures import collect_figures
 from modeler.views.thresholds import THRESHOLDS
@@ -19,7 +31,7 @@ def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> page.Page:
     """Builds the page of a fleet; `provenance` are lines on how the data came about."""
     return page.Page(
         title=f"{fleet.robot}: what drifts where",
-        headline=result.format_headline(fleet),
+        headline=format_headline(fleet),
         sections=_build_sections(fleet),
         origin=page.Origin(
             fleet.robot, [f"{name}: {len(p)}" for name, p in fleet.machines.items()]
@@ -29,7 +41,7 @@ def build_fleet_page(fleet: Fleet, provenance: Sequence[str] = ()) -> page.Page:
             ("logs", str(fleet.logs)),
             ("chance of any finding where nothing drifts", format_percent(fleet.false_alarm)),
         ],
-        provenance=[*fleet.notes, *result.format_skipped(fleet), *provenance],
+        provenance=[*fleet.notes, *format_skipped(fleet), *provenance],
         command="fleet",
     )
 
@@ -41,7 +53,7 @@ def _build_sections(fleet: Fleet) -> list[page.Section]:
         page.Section(
             f"Machine {one.machine}, {one.quantity.parameter}",
             [
-                page.Paragraph(f"{result.describe_finding(one, fleet.unit)}."),
+                page.Paragraph(f"{describe_finding(one, fleet.unit)}."),
                 page.Figure(draw_finding_picture(fleet, one), False),
             ],
             _build_section_id(k),
@@ -68,12 +80,10 @@ def _build_verdict(fleet: Fleet) -> page.Verdict | page.Paragraph:
     lines = []
     for k, one in enumerate(fleet.findings):
         joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
-        head = f"{one.machine}, {joint}{result.format_effect_title(one.quantity)}"
+        head = f"{one.machine}, {joint}{format_effect_title(one.quantity)}"
         link = _build_section_id(k) if k < THRESHOLDS.max_findings else ""
         lines.append(
-            page.JudgedLine(
-                "pattern", one.shape, head, result.describe_finding(one, fleet.unit), link
-            )
+            page.JudgedLine("pattern", one.shape, head, describe_finding(one, fleet.unit), link)
         )
     return page.Verdict(lines)
 
@@ -100,7 +110,7 @@ def draw_finding_picture(fleet: Fleet, one: FleetFinding) -> Picture:
     label = f"{one.quantity.parameter} [{one.quantity.unit}]"
     panel = Panel("", f"time [{fleet.unit}]", label, tuple(series))
     caption = (
-        f"{result.format_effect_title(one.quantity)} of {one.quantity.description}, log by log: "
+        f"{format_effect_title(one.quantity)} of {one.quantity.description}, log by log: "
         "blue the "
         "machine of this finding, with two standard deviations (scatter from period to period "
         "included), grey all others."
@@ -124,7 +134,7 @@ def draw_quantity_picture(fleet: Fleet, each: QuantityHistory) -> Picture:
     label = f"{each.quantity.parameter} [{each.quantity.unit}]"
     panel = Panel("", f"time [{fleet.unit}]", label, series)
     caption = (
-        f"{result.format_effect_title(each.quantity)} of {each.quantity.description}, log by log, "
+        f"{format_effect_title(each.quantity)} of {each.quantity.description}, log by log, "
         "one line a "
         "machine; whiskers: two standard deviations, scatter from period to period included."
     )
@@ -174,7 +184,7 @@ def _draw_map(fleet: Fleet, machines: Sequence[str], number: int) -> Picture:
 
 
 def _tabulate_followed(fleet: Fleet) -> page.PageTable:
-    head, *rows = result.build_table_rows(fleet)
+    head, *rows = build_table_rows(fleet)
     return page.PageTable(
         head,
         rows,
@@ -232,7 +242,7 @@ def _tabulate_quantities(fleet: Fleet) -> Table:
     rows = [
         (
             q.joint,
-            result.format_effect_title(q),
+            format_effect_title(q),
             q.parameter,
             each.level,
             q.unit,
@@ -242,7 +252,7 @@ def _tabulate_quantities(fleet: Fleet) -> Table:
         for each in fleet.histories
         for q in [each.quantity]
     ]
-    return Table.build("what may drift", result.HEAD, rows)
+    return Table.build("what may drift", HEAD, rows)
 
 
 def _collect_figures(fleet: Fleet) -> Figures:
@@ -259,7 +269,7 @@ def _collect_figures(fleet: Fleet) -> Figures:
 PRESENTATIONS = {
     Fleet: Presentation(
         "a fleet",
-        lambda f: "\n".join(result.format_fleet(f)),
+        lambda f: "\n".join(format_fleet(f)),
         _collect_tables,
         _collect_figures,
         document=build_fleet_page,

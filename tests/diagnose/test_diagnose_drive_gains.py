@@ -8,7 +8,7 @@ import pytest
 
 from modeler.diagnosis.add import add_effect, add_findings
 from modeler.diagnosis.added_model import LogSplit
-from modeler.diagnosis.drive_gains import compute_gain_visibility
+from modeler.diagnosis.plausibility import compute_gain_visibility
 from modeler.runtime.model import load_module
 from tests.diagnose.conftest import Case, Torque
 from tests.rotation import rotating

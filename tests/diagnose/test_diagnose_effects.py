@@ -9,7 +9,7 @@ import pytest
 
 from modeler.api import load
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.sentences import format_lines
+from modeler.diagnosis.messages import format_lines
 from modeler.regression.log import Log
 from modeler.views import suggest_after_diagnosis
 from tests.chain import chain_of

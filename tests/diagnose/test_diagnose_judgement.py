@@ -6,22 +6,22 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnosis import data_checks, judge as errors, search
-from modeler.diagnosis.assemble import _add_event_caveat, decide_verdict
+from modeler.diagnosis import messages, scoring, search
 from modeler.diagnosis.candidates import Candidate, StatedEffects, compute_scales, list_candidates
-from modeler.diagnosis.cross_checks import CrossCheck
-from modeler.diagnosis.judge import (
+from modeler.diagnosis.findings import _add_event_caveat, decide_verdict
+from modeler.diagnosis.messages import describe_rejected
+from modeler.diagnosis.plausibility import DRIVES
+from modeler.diagnosis.result import CrossCheck, Finding, explain_weak_evidence
+from modeler.diagnosis.scoring import (
+    ErrorChange,
     RankedCandidates,
+    Score,
     ScoredCandidate,
     is_possible,
     select_alternatives,
     select_best,
 )
-from modeler.diagnosis.plausible import DRIVES
-from modeler.diagnosis.result import Finding, explain_weak_evidence
-from modeler.diagnosis.score import ErrorChange, Score
 from modeler.diagnosis.search import CandidateScan
-from modeler.diagnosis.sentences import describe_rejected
 from modeler.effects.catalogue import find_effect
 from modeler.regression import DataWarning
 from tests.diagnose.conftest import Case
@@ -48,7 +48,7 @@ def at_its_best(
 
 def joint_left(error: float, unexplained: bool = False) -> dict[str, SimpleNamespace]:
     """What is left on the only joint."""
-    return {"1": SimpleNamespace(error_after=error, unexplained=unexplained)}
+    return {"1": SimpleNamespace(error_after=error, is_unexplained=unexplained)}
 
 
 def finding(name: str, joint: str | None, after: float = 0.1, **others: object) -> Finding:
@@ -114,7 +114,7 @@ def test_a_push_is_no_fact_while_something_acts_all_the_time(
     effect: str, left: bool, said: str
 ) -> None:
     joints = joint_left(0.1, left)
-    event = finding(effect, None, event=effect == "external_force")
+    event = finding(effect, None, is_event=effect == "external_force")
     first = _add_event_caveat(event, joints)  # type: ignore[arg-type]
     assert decide_verdict((first,), joints, None) == said  # type: ignore[arg-type]
     assert first.status == ("fact" if said == "missing" else "named")
@@ -137,10 +137,10 @@ DROWNED = CrossCheck("up to 9 Hz", None, True, -0.01, 0.015)
         ("spring", 0.1, {"ties": (candidate("spring", "3"),)}, "one of joint 3"),
         ("spring", 0.1, {"ties": (candidate("counterbalance"), candidate("base_tilt", None))}, ""),
         ("spring", 0.1, {"ties": (candidate("cable_hysteresis"),)}, "kind: cable_hysteresis"),
-        ("spring", 0.1, {"looks": (LED,)}, "stribeck explains its joint better (up to 9 Hz)"),
-        ("spring", 0.1, {"looks": (FAINT,)}, "explains nothing up to 9 Hz"),
-        ("spring", 0.1, {"looks": (DROWNED,)}, ""),
-        ("drive_gain", 0.1, {"objection": "1000 times", "looks": (LED, FAINT)}, ""),
+        ("spring", 0.1, {"checks": (LED,)}, "stribeck explains its joint better (up to 9 Hz)"),
+        ("spring", 0.1, {"checks": (FAINT,)}, "explains nothing up to 9 Hz"),
+        ("spring", 0.1, {"checks": (DROWNED,)}, ""),
+        ("drive_gain", 0.1, {"objection": "1000 times", "checks": (LED, FAINT)}, ""),
         ("joint_ripple", 0.1, {"sigmas": {"m": 0.01}}, "no number of teeth"),
     ],
 )
@@ -191,7 +191,7 @@ def test_what_is_doubted_gives_way_to_a_rival_that_explains_as_much(
 ) -> None:
     doubted = dataclasses.replace(at_its_best("elasticity", gain), reason="too heavy")
     rival = search.RankedCandidates((), at_its_best("spring", share))
-    survey = SimpleNamespace(judged=lambda vetoed, tick: rival)
+    survey = SimpleNamespace(judge_candidates=lambda vetoed, tick: rival)
     for judged, gives_way in ((doubted, taken), (dataclasses.replace(doubted, reason=""), False)):
         instead = search._choose_alternative(survey, [], judged, SimpleNamespace(), print)  # type: ignore[arg-type]
         assert instead is (rival if gives_way else None)
@@ -201,14 +201,16 @@ def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
     def at(effect_id: str, joint: str, gain: float, confirmed: bool = True) -> SimpleNamespace:
         one = SimpleNamespace(key=(effect_id, joint), effect=find_effect(effect_id))
         why = DRIVES if effect_id == "drift" else ""
-        return SimpleNamespace(candidate=one, gain=gain, confirmed=confirmed, why=why)
+        return SimpleNamespace(
+            candidate=one, variance_reduction=gain, is_confirmed=confirmed, reason=why
+        )
 
     vetoed = [at("spring", "1", 0.3), at("spring", "1", 0.5), at("drift", "2", 0.4)]
     vetoed.append(at("offset", "1", 0.8))  # named later
     ranked = [at("elasticity", "2", 0.6, confirmed=False), at("stribeck", "3", 0.9)]
     last, named = SimpleNamespace(ranked=ranked), SimpleNamespace(effect="offset", joint="1")
-    steps = [SimpleNamespace(pick=SimpleNamespace(key=("offset", "1")))]
-    whole = SimpleNamespace(vetoed=vetoed, steps=steps, last=last)
+    steps = [SimpleNamespace(candidate=SimpleNamespace(key=("offset", "1")), score=None)]
+    whole = SimpleNamespace(vetoed_candidates=vetoed, steps=steps, last=last)
     lines = describe_rejected(SimpleNamespace(search=whole, effects=(named,), refinements=()))  # type: ignore[arg-type]
     for line, (what, why) in zip(lines, (
         ("(elasticity), joint 2, explains 60 %", "errors of timing"),
@@ -227,14 +229,14 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
 ) -> None:
     """Errors there without it are 1; a little falls by chance, or by what the effect is not."""
     change = ErrorChange("", 1.0, after, 5.0)
-    monkeypatch.setattr(errors, "find_affected_joints", lambda judged, before, after: [0])
-    monkeypatch.setattr(errors, "compute_holdout_residuals", lambda state, other: state)
-    monkeypatch.setattr(errors, "compare_residuals", lambda *a: Score((change,), change))
-    veto = errors.make_veto("held out")  # type: ignore[arg-type]
-    judged_at = SimpleNamespace(gain=expected, alone=True)
+    monkeypatch.setattr(scoring, "find_affected_joints", lambda score, before, after: [0])
+    monkeypatch.setattr(scoring, "compute_holdout_residuals", lambda state, other: state)
+    monkeypatch.setattr(scoring, "compare_residuals", lambda *a: Score((change,), change))
+    veto = scoring.make_veto("held out")  # type: ignore[arg-type]
+    judged_at = SimpleNamespace(variance_reduction=expected, is_local=True)
     assert veto("before", "after", judged_at) is refused  # type: ignore[arg-type]
     chance = ErrorChange("", 1.0, after, 1.9)
-    monkeypatch.setattr(errors, "compared", lambda *a: Score((chance,), chance))
+    monkeypatch.setattr(scoring, "compare_residuals", lambda *a: Score((chance,), chance))
     assert veto("before", "after", judged_at), "no more than chance"  # type: ignore[arg-type]
 
 
@@ -244,14 +246,14 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
 def test_what_an_effect_explains_is_no_matter_of_the_channel(
     monkeypatch: pytest.MonkeyPatch, left: float, certain: bool, told: int
 ) -> None:
-    for name in ("_late", "_moved", "data_lines"):
-        monkeypatch.setattr(data_checks, name, lambda *a: [])
-    data = SimpleNamespace(observation=SimpleNamespace(report=SimpleNamespace(notes=list)))
+    for name in ("_check_position_delay", "_describe_delay_shift", "describe_data_problems"):
+        monkeypatch.setattr(messages, name, lambda *a: [])
+    data = SimpleNamespace(observation=SimpleNamespace(report=SimpleNamespace(collect_notes=list)))
     start, end = (SimpleNamespace(residual=[np.full(10, size)], data=data, picks=())
                   for size in (1.0, left))  # fmt: skip
     faults = [DataWarning("torque 1 is 0.7 times the predicted", certain, joint=0)]
     search = SimpleNamespace(start=start, end=end)
-    assert len(data_checks.collect_warnings(None, search, None, faults)) == told  # type: ignore[arg-type]
+    assert len(messages.collect_warnings(None, search, None, faults)) == told  # type: ignore[arg-type]
 
 
 def test_what_gave_way_is_a_tie_of_what_explains_as_much() -> None:

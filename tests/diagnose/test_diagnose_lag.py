@@ -9,7 +9,7 @@ from scipy.signal import lfilter
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.signals import apply_lag
-from modeler.diagnosis.timing import CONVENTION
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.regression import Log
 from tests.diagnose.conftest import Case, Torque, on_joint
 from tests.rotation import rotating
@@ -98,7 +98,7 @@ def test_what_is_a_delay_or_a_filter_takes_no_place(case: Case) -> None:
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_less_than_half_a_sample_is_no_effect(case: Case) -> None:
     step = float(np.median(np.diff(case.train.time)))
-    found = case.found(changed(low_passed, 0, 0.5 * CONVENTION * step))
+    found = case.found(changed(low_passed, 0, 0.5 * THRESHOLDS.max_logger_delay * step))
     assert not found.effects and found.verdict == "nothing significant"
 
 

@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnosis import plausible
+from modeler.diagnosis import plausibility
 from modeler.diagnosis.candidates import Candidate, JointScale
-from modeler.diagnosis.plausible import find_caveat
+from modeler.diagnosis.plausibility import find_caveat
 from modeler.diagnosis.signals import SignalReference, compute_tilt_axes
 from modeler.effects.catalogue import find_effect
 from tests.chain import chain_of
@@ -27,7 +27,7 @@ def state(unit="rad", weight=0.0):
         ),
         data=SimpleNamespace(compiled=compiled, prior=None),
         spec=spec,
-        reference=SimpleNamespace(links=np.zeros(1)),
+        reference=SimpleNamespace(link_parameters=np.zeros(1)),
     )
 
 
@@ -69,8 +69,8 @@ def levered(curve, weight=0.5, noise=0.1):
     made = state(weight=weight)
     q = np.linspace(-1.0, 1.0, 100)
     made.rows.signals[0].q = q[:, None]
-    made.rows.filtered = lambda j, values: np.concatenate(values)
-    made.rows.columns = lambda candidate: (curve(q)[:, None],)
+    made.rows.filter_samples = lambda j, values: np.concatenate(values)
+    made.rows.build_columns = lambda candidate: (curve(q)[:, None],)
     made.residual = [noise * np.cos(50.0 * q)]
     made.rows.cache = {}
     return made
@@ -100,7 +100,7 @@ def test_a_lever_balances_gravity_and_is_no_straight_line(bent, weight, links, d
 def test_a_spring_that_is_never_near_its_rest_is_a_constant_torque(rest, having, doubted):
     made = state()
     made.data.compiled.spec.standard = [SimpleNamespace(effect=e, joint="1") for e in having]
-    made.scales = [JointScale(speed=1.0, range=1.5, load=1.0, angular=True, middle=0.0)]
+    made.joint_scales = [JointScale(speed=1.0, range=1.5, load=1.0, angular=True, middle=0.0)]
     effect = find_effect("spring")
     spring = Candidate(effect, effect.forms[0], "1", 0, {"q0": rest, "h": 0.0})
     assert ("a constant torque" in find_caveat(made, spring, {"Ks1": 1.0})) is doubted
@@ -114,10 +114,15 @@ def test_a_body_has_the_inertia_of_a_body(monkeypatch, inertia, built):
     names, values = ["XX1", "YY1", "ZZ1", "MX1", "M1"], [*inertia, 0.1, 1.0]
     felt = [SimpleNamespace(name=name, joint="1") for name in names]
     columns = np.random.default_rng(1).normal(size=(100, 5))
-    monkeypatch.setattr(plausible, "list_body_parameters", lambda candidate, signals: felt)
-    monkeypatch.setattr(plausible, "build_columns", lambda rows, candidate: (columns,))
+    monkeypatch.setattr(plausibility, "list_body_parameters", lambda candidate, signals: felt)
+    monkeypatch.setattr(plausibility, "build_columns", lambda rows, candidate: (columns,))
     made, payload = state(), pick("payload")
-    made.picks, made.values, made.sigma, made.data.free = (payload,), [np.array(values)], [1.0], []
+    made.picks, made.values, made.sigma, made.data.free_columns = (
+        (payload,),
+        [np.array(values)],
+        [1.0],
+        [],
+    )
     made.rows.signals, made.rows.W = [None], [np.zeros((100, 0))]
     said = dict(zip(["XX", "YY", "ZZ", "MX", "mass"], values, strict=True))
     assert (find_caveat(made, payload, said) == "") is built

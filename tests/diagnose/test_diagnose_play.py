@@ -5,10 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modeler.diagnosis import detected as module
-from modeler.diagnosis.detected import detect_events
+from modeler.diagnosis import events as module
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.score import ErrorChange, Score
+from modeler.diagnosis.events import detect_events
+from modeler.diagnosis.scoring import ErrorChange, Score
 from modeler.effects.catalogue import CATALOGUE, find_effect
 from modeler.views.evidence import draw_play_picture
 from tests.diagnose.conftest import Case, motion, on_joint
@@ -29,12 +29,17 @@ def searched(monkeypatch, start, end, knocks=(0.0, 0.0, 0.0), columns=None):
     """
     joints = [SimpleNamespace(name=str(j), actuated=True) for j in (1, 2, 3)]
     spec, names = SimpleNamespace(joints=joints), [joint.name for joint in joints]
-    states = [SimpleNamespace(names=names, ratios=ratios) for ratios in (start, end)]
+    states = [SimpleNamespace(joint_names=names, ratios=ratios) for ratios in (start, end)]
     monkeypatch.setattr(module, "compute_burst_ratio", lambda state, j: state.ratios[j])
     monkeypatch.setattr(module, "compute_burst_share", lambda state, j: knocks[j])
     effect = find_effect("backlash")
     ranked = [
-        SimpleNamespace(candidate=SimpleNamespace(effect=effect, index=j), gain=g, share=s, sure=r)
+        SimpleNamespace(
+            candidate=SimpleNamespace(effect=effect, index=j),
+            variance_reduction=g,
+            total_share=s,
+            t_ratio=r,
+        )
         for j, (g, s, r) in (columns or {}).items()
     ]
     ends = {"start": states[0], "end": states[1], "last": SimpleNamespace(ranked=ranked)}

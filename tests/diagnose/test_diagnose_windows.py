@@ -2,17 +2,19 @@
 
 import gc
 import weakref
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.signal import cont2discrete, lfilter
 
 from modeler.core.expression import parse_expression
-from modeler.diagnosis import effect_columns as rows_module, signals as signals_module
-from modeler.diagnosis.effect_columns import thin_samples
-from modeler.diagnosis.generate import generate_candidates
+from modeler.diagnosis import candidates as rows_module, signals as signals_module
+from modeler.diagnosis.candidates import thin_samples
+from modeler.diagnosis.generation import generate_candidates
 from modeler.diagnosis.ranking import estimate_sigma
 from modeler.diagnosis.state import SearchData, analyse_logs, build_all_columns, build_state
+from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import ReducedRows
 from modeler.regression.motion import Processing
 from modeler.regression.prepare import LogRepair
@@ -42,7 +44,7 @@ def test_columns_do_not_depend_on_the_windows(arm, log, monkeypatch) -> None:
     observation = analyse_logs(arm, [log], Processing())
     whole = columns(arm, observation)
     for module in (rows_module, signals_module):
-        monkeypatch.setattr(module, "WINDOW", 101)
+        monkeypatch.setattr(module, "THRESHOLDS", replace(THRESHOLDS, sample_window=101))
     parts = columns(arm, observation)
     assert len(whole[1]) == len(parts[1]) > 100
     np.testing.assert_equal(parts, whole)

@@ -18,7 +18,7 @@ from modeler.excitation import (
     find_closest_approach,
     format_csv,
 )
-from modeler.excitation.motion import build_posture_limits
+from modeler.excitation.limits import build_posture_limits
 from modeler.robot import parse_robot_text, read_robot
 from modeler.views.robot_skeleton import build_skeleton, compute_poses
 from tests.chain import chain_of

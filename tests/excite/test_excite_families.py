@@ -1,6 +1,7 @@
 """B-splines and trapezoids beside Fourier series; what to record next, beside logs."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,9 +9,9 @@ import pytest
 from modeler.api.motion import excite as next_to
 from modeler.cli import main
 from modeler.estimation import identify
-from modeler.excitation.criterion import CRITERIA, PriorInformation
-from modeler.excitation.families import FAMILIES, build_series
 from modeler.excitation.search import MotionRequest, build_task, design_motion, draw_random_motion
+from modeler.excitation.series import CRITERIA, FAMILIES, PriorInformation, build_series
+from modeler.excitation.thresholds import THRESHOLDS
 from modeler.regression import Log, observe
 from modeler.robot import read_robot
 from modeler.simulation import build_curve, read_motion
@@ -73,7 +74,9 @@ def test_a_trapezoid_stops_at_its_places_and_its_jerk_is_constant_by_pieces():
 
 @pytest.mark.parametrize("family", [NEW[0], *rotating(*NEW[1:])])
 def test_the_command_writes_a_family_in_the_same_columns(family, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("modeler.excitation.search.RANDOM", 7)
+    monkeypatch.setattr(
+        "modeler.excitation.search.THRESHOLDS", replace(THRESHOLDS, random_motions=7)
+    )
     place, told = tmp_path / "m.csv", tmp_path / "m.json"
     words = ["excite", "two-link", "--family", family, "--duration", "4", "--starts", "1"]
     words += ["--harmonics", "3", "--laps", "2", "--picture", tmp_path / "m.svg"]

@@ -53,7 +53,7 @@ def test_forecast_sigmas_are_those_that_fits_find(arm, known, counts) -> None:
     model, motion = known
     told = expected_sigmas(model, motion, rate=RATE, counts=counts)
     step = 2.0 * np.pi / counts if counts else 0.0
-    found = [arm(motion.sampled(RATE), step).fit for _ in range(4)]
+    found = [arm(motion.sample_motion(RATE), step).fit for _ in range(4)]
     ratio = sigmas(told) / np.median([sigmas(each) for each in found], axis=0)
     assert ratio.min() > 0.7 and ratio.max() < 1.4
     cutoffs = [each.processing.parallel_cutoff for each in found]

@@ -8,8 +8,7 @@ import pytest
 from modeler.api.motion import build_bounds, build_subject
 from modeler.core.errors import DataError
 from modeler.excitation import MotionRequest, build_task, design_motion, draw_random_motion
-from modeler.excitation.criterion import MotionColumns, compute_condition
-from modeler.excitation.families import build_series
+from modeler.excitation.series import MotionColumns, build_series, compute_condition
 from modeler.robot.edit import replace_gravity
 from modeler.robot.read import parse_robot_text, read_builtin_robot
 from modeler.simulation.closing import (
@@ -196,6 +195,6 @@ def test_every_loop_asks_for_the_time(monkeypatch, steps):
         monkeypatch.setattr(MotionColumns, name, counted)
     monkeypatch.setattr("modeler.excitation.search.time.monotonic", lambda: clock[0])
     before = clock[0]
-    motion = subject.search(bounds, MotionRequest(6.0, 4, seed=1, time_limit=before + steps))
+    motion = subject.search_motion(bounds, MotionRequest(6.0, 4, seed=1, time_limit=before + steps))
     assert motion.ended_early and clock[0] < before + steps + 700
-    assert (motion.drawn == 1) == (steps == 1)
+    assert (motion.random_count == 1) == (steps == 1)

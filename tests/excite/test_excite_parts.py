@@ -1,6 +1,7 @@
 """The parts of the search against other ways to compute the same."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,14 +9,14 @@ from scipy.optimize import minimize, rosen, rosen_der
 
 from modeler.core.errors import DataError
 from modeler.excitation import choose_motions, draw_random_motion, separate as choosing
-from modeler.excitation.criterion import (
+from modeler.excitation.search import BarrierProblem
+from modeler.excitation.series import (
     CRITERIA,
+    build_series,
     compute_condition,
     compute_log_condition,
     compute_log_det,
 )
-from modeler.excitation.families import build_series
-from modeler.excitation.task import BarrierProblem
 from modeler.numerics.least_squares import ObjectiveFunction, minimise_bfgs, minimise_cma_es
 from tests.excite.robots_to_excite import limits_of, small_task
 
@@ -124,7 +125,7 @@ def test_the_choice_is_the_best_of_all_subsets(monkeypatch):
 
     every = sorted(value(places) for places in itertools.combinations(range(9), 3))
     assert choice.exhaustive and choice.condition == pytest.approx(every[0])
-    monkeypatch.setattr(choosing, "_ALL", 1)
+    monkeypatch.setattr(choosing, "THRESHOLDS", replace(choosing.THRESHOLDS, max_subsets=1))
     quick = choose_motions(rows, 3)
     assert not quick.exhaustive and quick.condition <= every[3]
     with pytest.raises(DataError, match="got 10 of 9"):

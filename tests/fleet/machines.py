@@ -10,11 +10,10 @@ from scipy.signal import lfilter
 from modeler.api.workflow import load
 from modeler.codegen.workflow import derive, generate
 from modeler.core.manifest import EmittedModule
-from modeler.fleet.naming import LogName
-from modeler.fleet.summary import LogSummary, summarise_log
 from modeler.regression.log import Log
 from modeler.regression.motion import Processing
 from modeler.runtime.model import CompiledModel
+from modeler.validation.fleet_logs import LogName, LogSummary, summarise_log
 
 RATE = 100.0  # Hz
 
@@ -162,7 +161,7 @@ def summaries(scene: Scene, seed: int, robot: str = "two-link") -> tuple[LogSumm
     """
     model, processing = compiled(robot), PROCESSING
     found: list[LogSummary] = []
-    with patch("modeler.fleet.summary.log_findings", return_value=()):
+    with patch("modeler.validation.fleet_logs.find_log_faults", return_value=()):
         for named, log in logs(scene, seed, robot):
             found.append(summarise_log(model, log, named, processing))
             processing = found[0].processing or processing

@@ -6,10 +6,8 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.fleet.fleet import analyse_fleet
-from modeler.fleet.naming import LogName
-from modeler.fleet.result import Fleet, describe_finding, format_fleet
-from modeler.fleet.summary import SkippedLog
+from modeler.validation.fleet import Fleet, analyse_fleet, describe_finding, format_fleet
+from modeler.validation.fleet_logs import LogName, SkippedLog
 from tests.fleet.machines import Planted, Scene, compiled, summaries
 from tests.rotation import rotating, slow_rotating
 

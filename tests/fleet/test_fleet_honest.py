@@ -7,13 +7,11 @@ import pytest
 
 from modeler.api import fleet, load
 from modeler.core.errors import DataError
-from modeler.fleet.fleet import analyse_fleet
-from modeler.fleet.naming import LogName
-from modeler.fleet.result import Fleet, format_fleet
-from modeler.fleet.summary import LogSummary, SkippedLog, summarise_log
 from modeler.regression.log import Log
 from modeler.regression.motion import Processing
 from modeler.runtime.model import CompiledModel
+from modeler.validation.fleet import Fleet, analyse_fleet, format_fleet
+from modeler.validation.fleet_logs import LogName, LogSummary, SkippedLog, summarise_log
 from tests.fleet.machines import Planted, Scene, compiled, logs, motion, parameters
 from tests.rotation import rotating
 

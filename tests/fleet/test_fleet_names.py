@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError
-from modeler.fleet.drift import arrange_by_time, parse_date
-from modeler.fleet.naming import make_natural_key, name_logs, read_log_list
+from modeler.validation.fleet_drift import arrange_by_time, parse_date
+from modeler.validation.fleet_logs import make_natural_key, name_logs, read_log_list
 from tests.fleet.machines import Scene, summaries
 
 

@@ -5,10 +5,15 @@ import pytest
 from scipy.special import stdtrit
 
 from modeler.estimation.least_squares import solve_least_squares
-from modeler.fleet import drift
-from modeler.fleet.drift import PeriodSeries, estimate_scatters, find_outlying_machines, fit_drift
-from modeler.fleet.joint_fit import GAIN, LOAD, build_layout, fit_fleet
 from modeler.regression.observe import observe
+from modeler.validation import fleet_drift as drift
+from modeler.validation.fleet_drift import (
+    PeriodSeries,
+    estimate_scatters,
+    find_outlying_machines,
+    fit_drift,
+)
+from modeler.validation.fleet_logs import GAIN, LOAD, build_layout, fit_fleet
 from tests.fleet.machines import PROCESSING, Scene, compiled, emitted, logs, parameters, summaries
 
 ROSNER = """

@@ -50,7 +50,9 @@ def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(
     first = dataclasses.replace(sprung.diagnosis.effects[0], doubt="it may be another")
     same, (line,) = add_findings(sprung.model, case.compiled, [first], sprung.logs)
     assert same is sprung.model and line.endswith("(perhaps and no more: it may be another)")
-    monkeypatch.setattr(module, "explain_weak_evidence", lambda *found: "the error falls by little")
+    monkeypatch.setattr(
+        module.result, "explain_weak_evidence", lambda *found: "the error falls by little"
+    )
     step = add_effect(sprung.model, case.compiled, "spring", "3", sprung.logs)
     assert (
         "it is perhaps missing and no more: the error falls by little"
@@ -64,7 +66,7 @@ def test_what_is_not_needed_beside_all_the_rest_is_taken_out_again(
     case: Case, sprung: Mended, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     wide = added_model.is_unneeded
-    monkeypatch.setattr(module, "not_needed", lambda m, s: s.effect == "spring" or wide(m, s))
+    monkeypatch.setattr(module, "is_unneeded", lambda m, s: s.effect == "spring" or wide(m, s))
     better, left_out = add_findings(
         sprung.model, case.compiled, sprung.diagnosis.effects, sprung.logs
     )

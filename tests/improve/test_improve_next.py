@@ -9,7 +9,7 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.diagnosis.add import resolve_effect
 from modeler.diagnosis.candidates import Candidate
-from modeler.diagnosis.plausible import find_caveat
+from modeler.diagnosis.plausibility import find_caveat
 from modeler.effects import CATALOGUE, Effect, EffectTarget, find_effect
 from modeler.views import (
     suggest_after_add,

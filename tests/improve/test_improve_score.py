@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from modeler.core.table import format_error_pair
-from modeler.diagnosis.score import (
+from modeler.diagnosis.scoring import (
     ErrorChange,
     Residuals,
     Score,

@@ -14,7 +14,7 @@ from modeler.diagnosis.added_model import LogSplit, build_rows, compute_residual
 from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.result import Diagnosis
-from modeler.diagnosis.score import Residuals, Score, score_change
+from modeler.diagnosis.scoring import Residuals, Score, score_change
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.regression import THRESHOLDS
 from modeler.regression.log import Log

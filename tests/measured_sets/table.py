@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from modeler.diagnosis.sentences import format_percent
+from modeler.diagnosis.messages import format_percent
 from tests.hidden_effects.table import markdown
 from tests.measured_sets.answer import Answer, Key, key, named
 

@@ -7,7 +7,7 @@ import numpy as np
 from modeler import api
 from modeler.core.toml_cells import TomlCell
 from modeler.diagnosis import Candidate, analyse_logs, build_state, learn_law
-from modeler.diagnosis.effect_columns import Rows, evaluate_equations
+from modeler.diagnosis.candidates import Rows, evaluate_equations
 from modeler.diagnosis.state import SearchData
 from modeler.effects import read_definition
 from tests.unnamed_laws.judge import least_squares, matrices, rows_of_machine, true_column

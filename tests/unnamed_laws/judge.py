@@ -6,7 +6,7 @@ import numpy as np
 
 from modeler import api
 from modeler.diagnosis import SignalReference, analyse_logs
-from modeler.diagnosis.effect_columns import Rows, build_rows
+from modeler.diagnosis.candidates import Rows, build_rows
 from modeler.diagnosis.state import observe_in_band
 from tests.unnamed_laws.laws import Motion, TrueForm
 from tests.unnamed_laws.machines import Machine

@@ -1,4 +1,4 @@
-"""One quantity of one machine over its periods: does it stay, drift or jump; is a machine odd?"""
+"""Drift of one quantity of a machine over its periods, and outlying machines."""
 
 import dataclasses
 import datetime
@@ -10,14 +10,18 @@ from typing import Literal
 import numpy as np
 from scipy.special import digamma, ndtri, polygamma, stdtr, stdtrit
 
-from modeler.fleet.naming import make_natural_key
-from modeler.fleet.summary import LogSummary
+from modeler.validation.fleet_logs import (
+    FLEET_THRESHOLDS,
+    GAIN,
+    LOAD,
+    FleetFit,
+    FleetLayout,
+    LogSummary,
+    Quantity,
+    make_natural_key,
+)
 
 Shape = Literal["trend", "jump", "one period"]
-
-_KEPT = 0.8  # of the changes, the smaller ones, that the scatter is taken from
-_EFFICIENCY = 0.4  # degrees of freedom of a change, of those that share their periods and are cut
-_MOST_PRIOR = 12.0  # degrees of freedom that other quantities may stand for
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +40,7 @@ class PeriodSeries:
 
     @property
     def standardised_changes(self) -> np.ndarray:
-        """From each period to the next, in standard deviations, the machine's usual one taken out.
+        """Returns changes between periods, in standard deviations, less their median.
 
         With three periods, what a straight line leaves; with two, the change itself.
         """
@@ -64,12 +68,12 @@ class Scatter:
     factor: float
 
     def compute_sigmas(self, series: PeriodSeries) -> np.ndarray:
-        """(p,) standard deviations of the values of a series that stays."""
+        """Computes standard deviations, (p,), of the values of a series that stays."""
         return np.hypot(series.sigmas, self.extra)
 
 
 def estimate_scatters(groups: Sequence[Sequence[PeriodSeries]]) -> list[Scatter]:
-    """The scatter of each quantity, from all machines, moderated by all other quantities.
+    """Estimates the scatter of each quantity, from all machines, moderated by all quantities.
 
     Few changes say little of a variance: that of each quantity is drawn to the usual one, the more
     the less they differ (Smyth 2004, Stat. Appl. Genet. Mol. Biol. 3(1), section 6.2; trimmed
@@ -78,11 +82,9 @@ def estimate_scatters(groups: Sequence[Sequence[PeriodSeries]]) -> list[Scatter]
     Args:
         groups: the series of all machines, quantity by quantity.
     """
-    changes = [
-        np.concatenate([np.zeros(0), *(entry.standardised_changes for entry in group)])
-        for group in groups
-    ]
-    degrees = np.array([_EFFICIENCY * len(entry) for entry in changes])
+    each = ([series.standardised_changes for series in group] for group in groups)
+    changes = [np.concatenate([np.zeros(0), *parts]) for parts in each]
+    degrees = np.array([FLEET_THRESHOLDS.degrees_per_change * len(entry) for entry in changes])
     squares = np.array([_estimate_trimmed_variance(entry) for entry in changes])
     usual, prior = _estimate_typical_variance(squares[squares > 0.0], degrees[squares > 0.0])
     scatters = []
@@ -91,9 +93,8 @@ def estimate_scatters(groups: Sequence[Sequence[PeriodSeries]]) -> list[Scatter]
         extra = max(0.0, variance - 1.0)
         sigmas = np.concatenate([np.zeros(0), *(series.sigmas for series in group)])
         size = float(np.sqrt(np.median(sigmas**2))) if sigmas.size else 0.0
-        scatters.append(
-            Scatter(np.sqrt(extra) * size, max(1.0, entry + prior), np.sqrt(1.0 + extra))
-        )
+        known = max(1.0, entry + prior)
+        scatters.append(Scatter(np.sqrt(extra) * size, known, np.sqrt(1.0 + extra)))
     return scatters
 
 
@@ -102,7 +103,7 @@ def _estimate_trimmed_variance(changes: np.ndarray) -> float:
     count = len(changes)
     if not count:
         return 0.0
-    used_count = int(np.ceil(_KEPT * count))
+    used_count = int(np.ceil(FLEET_THRESHOLDS.trimmed_share * count))
     expected = ndtri(0.5 + 0.5 * (np.arange(1, used_count + 1) - 0.375) / (count + 0.25))
     return float(np.sum(np.sort(changes**2)[:used_count]) / np.sum(expected**2))
 
@@ -118,7 +119,7 @@ def _estimate_typical_variance(squares: np.ndarray, degrees: np.ndarray) -> tupl
     half = 0.5 * degrees
     logs = np.log(squares) - digamma(half) + np.log(half)
     spread = float(np.var(logs, ddof=1) - np.mean(polygamma(1, half)))
-    grid = np.geomspace(0.1, _MOST_PRIOR, 100)
+    grid = np.geomspace(0.1, FLEET_THRESHOLDS.max_prior_degrees, 100)
     prior = float(grid[np.argmin(np.abs(polygamma(1, 0.5 * grid) - max(spread, 0.0)))])
     return float(np.exp(np.mean(logs) + digamma(0.5 * prior) - np.log(0.5 * prior))), prior
 
@@ -147,7 +148,7 @@ class Drift:
 
 
 def fit_drift(series: PeriodSeries, scatter: Scatter) -> Drift | None:
-    """The best description of what a series does; None for one period.
+    """Fits the best description of what a series does; None for one period.
 
     Weighted least squares of a constant and one shape, each shape in turn; the chance is that of
     one shape, Student's t, times their number (Bonferroni).
@@ -185,13 +186,13 @@ def _fit_shape(
 
 
 def compute_line(move: Drift, at: np.ndarray) -> np.ndarray:
-    """(p,) what a move adds to the level at each period."""
+    """Computes what a drift adds to the level at each period, (p,)."""
     columns = {(shape, begin): column for shape, begin, column in _build_shapes(at)}
     return move.change * columns[move.shape, move.begin]
 
 
 def compute_smallest_detectable(series: PeriodSeries, scatter: Scatter, level: float) -> float:
-    """The smallest straight drift over all periods that would be told at this chance.
+    """Computes the smallest straight drift that is detected at this chance.
 
     Args:
         series: of two periods and more.
@@ -204,7 +205,7 @@ def compute_smallest_detectable(series: PeriodSeries, scatter: Scatter, level: f
 
 
 def compute_quantile(degrees: float, chance: float) -> float:
-    """|t| that Student's t exceeds with that chance, both sides together."""
+    """Computes the |t| that Student's t exceeds with that chance, both sides together."""
     return float(-stdtrit(degrees, 0.5 * chance))
 
 
@@ -221,7 +222,7 @@ _DAY = 86400.0  # s
 
 
 def arrange_by_time(summaries: Sequence[LogSummary]) -> tuple[list[LogSummary], np.ndarray, Unit]:
-    """The logs machine after machine in order of time, when each is, and in what that counts.
+    """Arranges the logs by machine and time; returns when each is, and the unit.
 
     Dates in the names of all periods rule; else the clocks of the logs, where those of each machine
     do not overlap (logs that each begin at 0 do); else the names in natural order.
@@ -241,7 +242,7 @@ def arrange_by_time(summaries: Sequence[LogSummary]) -> tuple[list[LogSummary], 
 
 
 def parse_date(period: str) -> datetime.datetime | None:
-    """The day, and hour if it is there, that a name says, as 2026-03-01 or 20260301_0930."""
+    """Parses the day, and hour if any, of a name such as 2026-03-01 or 20260301_0930."""
     match = _DATE.search(period)
     if match is None:
         return None
@@ -276,13 +277,6 @@ def _arrange_logs(
 # The odd machine out: whose value of a quantity is apart from that of all others.
 
 
-LEAST = 5
-"""Machines from which an odd one can be told: with fewer, the others say too little of each other.
-"""
-
-_SHARE, _STEPS = 5, 3  # one of so many machines may be odd, and so many of a fleet
-
-
 @dataclass(frozen=True)
 class Outlier:
     """A machine apart.
@@ -301,7 +295,7 @@ class Outlier:
 
 
 def compute_critical_deviate(count: int, step: int, chance: float) -> float:
-    """What the most extreme of `count` normal numbers less `step` - 1 exceeds with that chance.
+    """Computes what the most extreme of `count` less `step` - 1 normal numbers exceeds.
 
     (Rosner 1983, eq. 2.5), lambda = (n - i) t / sqrt((n - i - 1 + t^2) (n - i + 1)), t with
     n - i - 1 degrees of freedom at chance / 2 (n - i + 1).
@@ -319,7 +313,7 @@ def compute_critical_deviate(count: int, step: int, chance: float) -> float:
 def find_outlying_machines(
     values: np.ndarray, sigmas: np.ndarray, chance: float
 ) -> tuple[Outlier, ...]:
-    """Machines apart, by the generalized extreme Studentized deviate.
+    """Finds outlying machines by the generalized extreme Studentized deviate.
 
     The most extreme machine is taken away, then the next, up to three and every fifth; the odd ones
     are all up to the last whose deviate exceeds its critical value, so that two do not hide each
@@ -334,11 +328,11 @@ def find_outlying_machines(
     """
     left = [int(k) for k in np.flatnonzero(np.isfinite(values))]
     count = len(left)
-    if count < LEAST:
+    if count < FLEET_THRESHOLDS.min_machines:
         return ()
     taken: list[int] = []
     last = 0
-    steps = min(_STEPS, count // _SHARE)
+    steps = min(FLEET_THRESHOLDS.max_outliers, count // FLEET_THRESHOLDS.machines_per_outlier)
     for i in range(1, steps + 1):
         rest = values[left]
         spread = float(np.std(rest, ddof=1))
@@ -352,9 +346,189 @@ def find_outlying_machines(
     others = [k for k in np.flatnonzero(np.isfinite(values)) if k not in taken[:last]]
     middle, spread = float(np.median(values[others])), float(np.std(values[others], ddof=1))
     beyond = compute_quantile(1e9, chance / count)
-    return tuple(
-        Outlier(int(k), difference, spread, difference / spread)
-        for k in taken[:last]
-        for difference in [float(values[k]) - middle]
-        if abs(difference) > beyond * sigmas[k]
-    )
+    differences = [(int(k), float(values[k]) - middle) for k in taken[:last]]
+    large = [(k, x) for k, x in differences if abs(x) > beyond * sigmas[k]]
+    return tuple(Outlier(k, x, spread, x / spread) for k, x in large)
+
+
+@dataclass(frozen=True, eq=False)
+class QuantityTests:
+    """What was tested; k logs machine after machine in time, d quantities.
+
+    Attributes:
+        quantities: (d,) what.
+        machine: (k,) index of the machine of each log.
+        at: (k,) when.
+        values: (k, d) of gains in %; NaN where a log does not tell it.
+        sigmas: (k, d) by the rows of each log.
+        scatters: (d,) from period to period.
+        drifts: (machine, quantity) of those that drift, and how.
+        outliers: (machine, quantity) of those apart from the others.
+        scores: (machine, quantity) of the greatest change of every series, in sigmas.
+        loaded_machines: machines that a load describes better than gains; None: not known yet.
+    """
+
+    quantities: tuple[Quantity, ...]
+    machine: np.ndarray
+    at: np.ndarray
+    values: np.ndarray
+    sigmas: np.ndarray
+    scatters: tuple[Scatter, ...] = ()
+    drifts: dict[tuple[int, int], Drift] = dataclasses.field(default_factory=dict)
+    outliers: dict[tuple[int, int], Outlier] = dataclasses.field(default_factory=dict)
+    scores: dict[tuple[int, int], float] = dataclasses.field(default_factory=dict)
+    loaded_machines: frozenset[int] | None = None
+
+    @property
+    def machine_count(self) -> int:
+        """Returns the number of machines."""
+        return int(self.machine.max()) + 1
+
+    def can_report(self, m: int, i: int) -> bool:
+        """Tells whether a quantity counts: no load in a machine that gains describe better."""
+        loaded = self.loaded_machines
+        return loaded is None or self.quantities[i].effect != LOAD or m in loaded
+
+    def find_logs(self, m: int, i: int) -> np.ndarray:
+        """Finds the indices of the logs of a machine that determine a quantity."""
+        return np.flatnonzero((self.machine == m) & np.isfinite(self.values[:, i]))
+
+    def get_series(self, m: int, i: int) -> PeriodSeries:
+        """Returns a quantity of a machine."""
+        log_indices = self.find_logs(m, i)
+        values, sigmas = self.values[log_indices, i], self.sigmas[log_indices, i]
+        return PeriodSeries(self.at[log_indices], values, sigmas)
+
+    def find_smallest_drift(self, i: int) -> float | None:
+        """Finds the smallest straight drift that the best observed machine would show."""
+        every = [self.get_series(m, i) for m in range(self.machine_count)]
+        known, level = self.scatters[i], self.significance_level
+        limits = [compute_smallest_detectable(s, known, level) for s in every if len(s.at) > 1]
+        return min(limits, default=None)
+
+    @property
+    def significance_level(self) -> float:
+        """Returns the chance that one series may have."""
+        return 0.5 * FLEET_THRESHOLDS.false_alarm / (self.machine_count * len(self.quantities))
+
+
+def evaluate_quantities(
+    layout: FleetLayout, fit: FleetFit, logs: Sequence[LogSummary], at: np.ndarray
+) -> QuantityTests:
+    """Tests all quantities of all machines; confounders by what they explain.
+
+    A load enters the torques of several joints, a gain those of one: of machines whose load seems
+    to change, the one that leaves less unexplained holds for all their logs, and the other is no
+    finding. Friction and offset are in units of the logged torque; where a gain drifts, they are
+    freed of it.
+    """
+    names = list(dict.fromkeys(each.log_name.machine for each in logs))
+    machine = np.array([names.index(each.log_name.machine) for each in logs])
+    values, sigmas = _collect_arrays(layout, fit)
+    tests = QuantityTests(layout.quantities, machine, at, values, sigmas)
+    tests = dataclasses.replace(tests, scatters=_estimate_scatters(tests))
+    if fit.load_fits:
+        tests = _apply_loads(tests, layout, fit)
+    gains = [i for i, each in enumerate(tests.quantities) if each.effect == GAIN]
+    others = [i for i, each in enumerate(tests.quantities) if each.effect != GAIN]
+    tests = _remove_gains(_detect_drifts(tests, gains))
+    return _detect_drifts(dataclasses.replace(tests, scatters=_estimate_scatters(tests)), others)
+
+
+def _collect_arrays(layout: FleetLayout, fit: FleetFit) -> tuple[np.ndarray, np.ndarray]:
+    """(k, d) values and sigmas, of friction and gains as without loads."""
+    values = np.array([log.values for log in fit.logs])
+    sigmas = np.array([log.sigmas for log in fit.logs])
+    first = len(layout.drift_columns)
+    for array in (values, sigmas):
+        array[:, first:] *= 100.0
+    if fit.load_fits:
+        values = np.column_stack([values, [log.values[first] for log in fit.load_fits]])
+        sigmas = np.column_stack([sigmas, [log.sigmas[first] for log in fit.load_fits]])
+    return values, sigmas
+
+
+def _estimate_scatters(tests: QuantityTests) -> tuple[Scatter, ...]:
+    machines, columns = range(tests.machine_count), range(len(tests.quantities))
+    groups = [[tests.get_series(m, i) for m in machines] for i in columns]
+    return tuple(estimate_scatters(groups))
+
+
+def _apply_loads(tests: QuantityTests, layout: FleetLayout, fit: FleetFit) -> QuantityTests:
+    """The fits with a load in place of gains, of machines that these describe better."""
+    load = len(tests.quantities) - 1
+    tested = _detect_drifts(tests, [load])
+    suspects = {m for m, _ in (*tested.drifts, *tested.outliers)}
+    values, sigmas = tests.values.copy(), tests.sigmas.copy()
+    first, loaded = len(layout.drift_columns), set[int]()
+    for m in range(tests.machine_count):
+        log_indices = np.flatnonzero(tests.machine == m)
+        gain, with_load = (
+            sum(fits[k].misfit for k in log_indices) for fits in (fit.logs, fit.load_fits)
+        )
+        if m not in suspects or gain <= with_load:
+            continue
+        loaded.add(m)
+        for k in log_indices:
+            values[k, :first] = fit.load_fits[k].values[:first]
+            sigmas[k, :first] = fit.load_fits[k].sigmas[:first]
+        values[log_indices, first:load] = np.nan
+    machines = frozenset(loaded)
+    return dataclasses.replace(tests, values=values, sigmas=sigmas, loaded_machines=machines)
+
+
+def _detect_drifts(tests: QuantityTests, places: Sequence[int]) -> QuantityTests:
+    """With the drifts and the odd machines of some quantities."""
+    moves, outliers, scores = dict(tests.drifts), dict(tests.outliers), dict(tests.scores)
+    level, families = tests.significance_level, len(tests.quantities)
+    for i in places:
+        for m in range(tests.machine_count):
+            move = fit_drift(tests.get_series(m, i), tests.scatters[i])
+            if move is not None:
+                scores[m, i] = abs(move.score)
+            if move is not None and move.chance < level and tests.can_report(m, i):
+                count = tests.machine_count * families
+                moves[m, i] = dataclasses.replace(move, chance=min(1.0, move.chance * count))
+        means, spreads = _compute_means(tests, moves, i)
+        chance = 0.5 * FLEET_THRESHOLDS.false_alarm / families
+        for each in find_outlying_machines(means, spreads, chance):
+            if tests.can_report(each.machine, i):
+                outliers[each.machine, i] = each
+    return dataclasses.replace(tests, drifts=moves, outliers=outliers, scores=scores)
+
+
+def _compute_means(
+    tests: QuantityTests, moves: dict[tuple[int, int], Drift], i: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """(machines,) means over the periods and their sigmas; NaN of machines that drift."""
+    means, spreads = (np.full(tests.machine_count, np.nan) for _ in range(2))
+    for m in range(tests.machine_count):
+        series = tests.get_series(m, i)
+        if len(series.at) and (m, i) not in moves:
+            weights = 1.0 / tests.scatters[i].compute_sigmas(series) ** 2
+            means[m] = np.sum(weights * series.values) / weights.sum()
+            spreads[m] = 1.0 / np.sqrt(weights.sum())
+    return means, spreads
+
+
+def _remove_gains(tests: QuantityTests) -> QuantityTests:
+    """Friction and offset of joints whose gain drifts, or is apart, in units without that."""
+    values, sigmas = tests.values.copy(), tests.sigmas.copy()
+    for (m, g), scale in _compute_gain_scales(tests).items():
+        log_indices = tests.find_logs(m, g)
+        for i, each in enumerate(tests.quantities):
+            if each.place == tests.quantities[g].place and each.column >= 0 and each.is_of_joint:
+                values[log_indices, i] /= scale
+                sigmas[log_indices, i] /= scale
+    return dataclasses.replace(tests, values=values, sigmas=sigmas)
+
+
+def _compute_gain_scales(tests: QuantityTests) -> dict[tuple[int, int], np.ndarray]:
+    """(periods,) 1 + gain / 100 of each gain that drifts or is apart."""
+    gains = [key for key in tests.drifts if tests.quantities[key[1]].effect == GAIN]
+    lines = {key: compute_line(tests.drifts[key], tests.get_series(*key).at) for key in gains}
+    scales = {key: 1.0 + line / 100.0 for key, line in lines.items()}
+    for key, outlier in tests.outliers.items():
+        if tests.quantities[key[1]].effect == GAIN:
+            scales[key] = np.full(len(tests.find_logs(*key)), 1.0 + outlier.difference / 100.0)
+    return {key: np.maximum(scale, 0.1) for key, scale in scales.items()}

@@ -1,0 +1,577 @@
+"""From a search to findings: other data, held-out errors, equivalents, verdict."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+
+import numpy as np
+
+from modeler.core.brief import ShortRepr
+from modeler.diagnosis import result
+from modeler.diagnosis.candidates import Candidate, to_dense
+from modeler.diagnosis.events import detect_events
+from modeler.diagnosis.generation import (
+    compute_systematic_share,
+    estimate_instrumental,
+    generate_candidates,
+    is_ruled_out,
+    smooth_rows,
+)
+from modeler.diagnosis.messages import (
+    NOT_JUDGED,
+    add_sentences,
+    collect_warnings,
+    compute_duration,
+    describe_evidence,
+    find_single_speed,
+)
+from modeler.diagnosis.plausibility import (
+    compute_gain_deviations,
+    compute_gain_visibility,
+    find_caveat,
+    is_gain,
+)
+from modeler.diagnosis.profile import estimate_effect
+from modeler.diagnosis.scoring import (
+    ErrorChange,
+    Residuals,
+    Score,
+    ScoredCandidate,
+    compare_residuals,
+    compute_errors,
+    compute_holdout_residuals,
+    count_free_numbers,
+    find_affected_joints,
+    find_equivalents,
+    fit_on_logs,
+    is_refinement,
+    select_best,
+)
+from modeler.diagnosis.search import (
+    Search,
+    SearchStep,
+    Tick,
+    extend_state,
+    linearise_state,
+    scan_candidates,
+)
+from modeler.diagnosis.state import SearchData, State, build_columns, build_state, get_cutoff
+from modeler.diagnosis.thresholds import THRESHOLDS
+from modeler.effects import EffectTarget, find_effect
+from modeler.estimation import IdentifiedModel, identify
+from modeler.regression import DataWarning, Log, build_observation, prepare_logs
+from modeler.runtime import map_parts
+
+
+@dataclass(frozen=True, eq=False)
+class CrossCheckData:
+    """Another look.
+
+    Attributes:
+        what: which, in words.
+        data: the logs in it.
+        is_required: True if an effect must show there; held-out logs have vetoed what does not.
+    """
+
+    what: str
+    data: SearchData
+    is_required: bool = True
+
+
+def cross_check_effects(
+    search: Search, data_sets: Sequence[CrossCheckData], tick: Tick = lambda: None
+) -> list[tuple[result.CrossCheck, ...]]:
+    """Checks on other data every effect that was put in, in order.
+
+    Args:
+        search: the search in the first look.
+        data_sets: others.
+        tick: called after each.
+    """
+    checks_by_step: list[list[result.CrossCheck]] = [[] for _ in search.steps]
+    for data_set in data_sets:
+        for place, step_checks in enumerate(checks_by_step):
+            step_checks.append(_cross_check_step(data_set, search, place))
+            tick()
+    pairs = zip(checks_by_step, search.steps, strict=True)
+    return [(*checks, *_check_excluded(search, step)) for checks, step in pairs]
+
+
+def _check_excluded(search: Search, step: SearchStep) -> list[result.CrossCheck]:
+    """What would have been named had the user ruled nothing out, or explains as much as simply."""
+    if not search.without:
+        return []
+    state = step.before
+    barred = [c for c in generate_candidates(state) if is_ruled_out(*c.key, search.without)]
+    if not barred:
+        return []
+    asked = scan_candidates(state, [step.candidate, *barred]).judge_candidates()
+    same_effect = [j for j in asked.ranked if j.key == step.candidate.key]
+    least = THRESHOLDS.parsimony_share * same_effect[0].total_reduction if same_effect else 0.0
+    numbers = count_free_numbers(step.candidate)
+    others = (j for j in asked.ranked if j not in same_effect and j.total_reduction >= least)
+    alike = (j for j in others if j.is_significant and count_free_numbers(j.candidate) <= numbers)
+    best = next(alike, asked.best)
+    if best is None or best.key == step.candidate.key:
+        return []
+    return [result.CrossCheck("ruled out", best.key, False)]
+
+
+def _cross_check_step(data_set: CrossCheckData, search: Search, place: int) -> result.CrossCheck:
+    what, data, step = data_set.what, data_set.data, search.steps[place]
+    picks = [*search.start.picks, *(s.candidate for s in search.steps[: place + 1])]
+    if not all(_is_logged(data, pick) for pick in picks):
+        return result.CrossCheck(what, None, True)
+    # the state in which the effect was chosen, from other data
+    state = linearise_state(build_state(data, picks[:-1], step.before.beta))
+    candidate_scores = _rescan_candidates(state, step, search)
+    gains = [j.variance_reduction for j in candidate_scores if j.key == step.candidate.key]
+    gain = gains[0] if gains else 0.0
+    expected = _compute_expected_gain(state, step) if data_set.is_required else 0.0
+    joint = step.candidate.joint
+    near = [j for j in candidate_scores if joint is None or j.key[1] in (None, joint)]
+    best = select_best(state, near).best
+    if best is None:
+        return result.CrossCheck(what, None, True, gain, expected)
+    alike = {best.key, *(j.key for j in find_equivalents(best, candidate_scores))}
+    if is_refinement(best.candidate, step.candidate):
+        alike.add(step.candidate.key)
+    return result.CrossCheck(what, best.key, step.candidate.key in alike, gain, expected)
+
+
+def _compute_expected_gain(state: State, step: SearchStep) -> float:
+    """Fall of the residual variance of its joints that the values of an effect let expect.
+
+    Of the smooth motion: what the noise of the positions does to its columns explains nothing.
+    """
+    columns, base = build_columns(smooth_rows(state), step.candidate), state.gram_blocks
+    torques = [
+        to_dense(columns, j, len(y)) @ step.score.values / s
+        for j, (y, s) in enumerate(zip(base.y, base.sigma, strict=True))
+    ]
+    pairs = zip(base.whitened_columns, torques, strict=True)
+    hidden = sum(basis.T @ torque for basis, torque in pairs)
+    fall = sum(float(torque @ torque) for torque in torques) - float(np.sum(hidden**2))
+    before = state.rank_columns([]).before[step.candidate.list_affected_joints(len(torques))]
+    return fall / max(float(before.sum()), 1e-300)
+
+
+def _is_logged(data: SearchData, candidate: Candidate) -> bool:
+    """False for what reads a temperature that these logs lack."""
+    temperature = data.rows.signals[0].reference.temperature
+    return "T" not in candidate.form.names or candidate.joint in temperature
+
+
+def _rescan_candidates(state: State, step: SearchStep, search: Search) -> list[ScoredCandidate]:
+    """The effect and its nearest rivals, each at the best of its shapes."""
+    refused = {j.key for j in search.vetoed_candidates}
+    rivals = [j.candidate for j in step.alternatives if j.key not in refused]
+    first = [step.candidate, *rivals[: THRESHOLDS.max_rechecked_alternatives]]
+    keys = {c.key for c in first}
+    again = [c for c in generate_candidates(state, None, search.without, keys) if c.key in keys]
+    logged = [c for c in (*first, *again) if _is_logged(state.data, c)]
+    return list(scan_candidates(state, logged).best)
+
+
+# Is the machine of the held-out logs that of the training logs?
+
+
+def find_changed_parameters(
+    model: IdentifiedModel, search: Search, other: SearchData, left: Residuals, logs: Sequence[Log]
+) -> tuple[result.ParameterChange, ...]:
+    """Finds parameters in which the machine of the held-out logs differs, largest change first.
+
+    Args:
+        model: as given.
+        search: the search on the training logs.
+        other: the held-out logs.
+        left: what the model with all effects leaves of these.
+        logs: the same logs.
+    """
+    there, ratio = fit_on_logs(search.end, other), THRESHOLDS.min_machine_error_ratio
+    alone, training = (
+        compute_errors(compute_holdout_residuals(state, None)) for state in (there, search.end)
+    )
+    most = {joint: ratio * max(alone[joint], training.get(joint, 0.0)) for joint in alone}
+    misses = any(error > most.get(joint, math.inf) for joint, error in compute_errors(left).items())
+    if not misses or other.fixed_parameters is not None:
+        return ()
+    rows = build_observation(other.compiled, logs, prepare_logs(other.spec, logs, model.processing))
+    fitted = identify(rows, "weighted", other.compiled).parameters
+    changes, norm = list[result.ParameterChange](), np.linalg.norm
+    for i, (a, b) in enumerate(zip(model.fit.parameters, fitted, strict=True)):
+        change, pairs = abs(b.value - a.value), zip(there.rows.W, there.rows.y, strict=True)
+        shares = (change * float(norm(w[:, i])) / (float(norm(y)) or math.inf) for w, y in pairs)
+        share = max(shares)
+        if a.sigma is None or b.sigma is None or share < THRESHOLDS.min_changed_torque_share:
+            continue
+        if change > THRESHOLDS.min_changed_parameter_t * math.hypot(a.sigma, b.sigma):
+            values = a.name, a.value, b.value, a.sigma, b.sigma, a.unit, share
+            changes.append(result.ParameterChange(*values))
+    return tuple(sorted(changes, key=lambda item: -item.share))
+
+
+@dataclass(frozen=True, eq=False)
+class BandSearch(ShortRepr):
+    """A search in one band, and what is made of it.
+
+    Attributes:
+        search: of the training logs.
+        other: held-out ones in that band.
+        held_out_residuals: what the states of the search leave of these.
+        share: systematic share of what the last leaves on a joint.
+        findings: its effects.
+    """
+
+    search: Search
+    other: SearchData | None
+    held_out_residuals: Sequence[Residuals]
+    share: Callable[[int], float]
+    findings: Sequence[result.Finding]
+
+    @property
+    def named_steps(self) -> tuple[SearchStep, ...]:
+        """Returns the steps whose effects are named."""
+        named = {(f.effect, f.joint) for f in self.findings if not f.doubt}
+        return tuple(step for step in self.search.steps if step.candidate.key in named)
+
+
+def evaluate_search(
+    search: Search,
+    other: SearchData | None,
+    checks: Sequence[tuple[result.CrossCheck, ...]],
+    tick: Tick,
+) -> BandSearch:
+    """Evaluates the effects of a search on held-out data.
+
+    Args:
+        search: of the training logs.
+        other: held-out ones in the same band.
+        checks: what other looks say of every effect, in order.
+        tick: called whenever something is done.
+    """
+    picks, beta = [*search.start.picks, *(step.candidate for step in search.steps)], search.end.beta
+    ends = range(len(search.start.picks) + 1, len(picks))
+    middle = (build_state(search.start.data, picks[:k], beta) for k in ends)
+    chain = [search.start, *middle, *([search.end] if search.steps else [])]
+    residuals = [compute_holdout_residuals(state, other) for state in chain]
+    looks_at = [(search.end, [state.residual for state in chain])]
+    if other is not None:
+        looks_at.append((fit_on_logs(search.end, other), [left.residual for left in residuals]))
+    shares = [_build_share_function(state, left[-1], tick) for state, left in looks_at]
+    squares = [[[*map(result.compute_mean_square, r)] for r in left] for _, left in looks_at]
+    findings = list[result.Finding]()
+    for k, step in enumerate(search.steps):
+        touched = find_affected_joints(step.score, *chain[k : k + 2])
+        score = compare_residuals(residuals[k], residuals[k + 1], touched, search.end)
+        if score.is_better and score.whole.after <= THRESHOLDS.max_predictive_error:
+            closed = min(
+                result.compute_explained_fraction(values[k:], touched, share, chain[k].sigma)
+                for values, share in zip(squares, shares, strict=True)
+            )
+            names = [search.end.joint_names[j] for j in touched]
+            after = [change.after for change in score.joints if change.joint in names]
+            finding = _build_finding(search, k, touched, score.whole, closed, checks[k], after)
+            findings.append(finding)
+        tick()
+    return BandSearch(search, other, residuals, shares[0], findings)
+
+
+def _build_share_function(
+    state: State, left: Sequence[np.ndarray], tick: Tick
+) -> Callable[[int], float]:
+    """Systematic share of what is left on a joint of some logs; it takes long."""
+
+    @cache
+    def compute_share(j: int) -> float:
+        tick()
+        return compute_systematic_share(state, j, left[j])
+
+    return compute_share
+
+
+def assemble_diagnosis(
+    model: IdentifiedModel,
+    bands: Sequence[BandSearch],
+    window: result.PushWindow | None,
+    faults: Sequence[DataWarning] = (),
+    changed_parameters: Sequence[result.ParameterChange] = (),
+) -> result.Diagnosis:
+    """Assembles the diagnosis.
+
+    Args:
+        model: as given.
+        bands: the search in the band of the diagnosis; then, if there is one, that in a wider band.
+        window: of a contact that was masked.
+        faults: channels that contradict the model; if one is certain, nothing is named.
+        changed_parameters: parameters in which the machine of the held-out logs differs; then
+            nothing is judged.
+    """
+    first, last = bands[0], bands[-1]
+    search, other = first.search, first.other
+    contradicted = any(fault.is_certain for fault in faults)
+
+    def score_candidate(candidate: Candidate) -> Score:
+        after = compute_holdout_residuals(extend_state(last.search.end, candidate), last.other)
+        return compare_residuals(
+            last.held_out_residuals[-1], after, [candidate.index], last.search.end
+        )
+
+    every: list[result.Finding] = []
+    end, residuals = search.end, first.held_out_residuals[-1]
+    if not contradicted:
+        every = _deduplicate_findings([finding for band in bands for finding in band.findings])
+        every, end, residuals = _evaluate_in_table_band(every, bands)
+        every = detect_events(
+            last.search, window, compute_errors(last.held_out_residuals[-1]), score_candidate, every
+        )
+    joints = _summarise_joints(search, end, (first.held_out_residuals[0], residuals), first.share)
+    every = [_add_event_caveat(finding, joints) for finding in every]
+    if changed_parameters:
+        every = [replace(finding, doubt=NOT_JUDGED) for finding in every]
+    every.sort(key=lambda finding: finding.status == "perhaps")
+    effects, refinements = (tuple(f for f in every if f.is_refinement is r) for r in (False, True))
+    diagnosis = result.Diagnosis(
+        robot=model.spec.robot,
+        verdict="cannot tell"
+        if contradicted or changed_parameters
+        else decide_verdict(effects, joints, search),
+        effects=effects,
+        refinements=refinements,
+        rivals=tuple((*rival.key, rival.variance_reduction) for rival in search.ranked[:8]),
+        blind_spots=list_undetectable_effects(search),
+        joints=joints,
+        unmoved=tuple(j.name for j in model.spec.joints if j.name not in joints),
+        held_out=other.observation.logs if other else (),
+        sentences=(),
+        fit_band=model.processing.parallel_cutoff or 0.0,
+        data=collect_warnings(model, search, other, faults, window),
+        contradicted=contradicted,
+        machine_changed=tuple(changed_parameters),
+        window=window,
+        search=search,
+    )
+    return add_sentences(diagnosis)
+
+
+def _deduplicate_findings(findings: Sequence[result.Finding]) -> list[result.Finding]:
+    """What two bands say of an effect: as it is named, if it is, or as it was seen first."""
+    unique: dict[tuple[object, ...], result.Finding] = {}
+    for k, finding in enumerate(findings):
+        several = finding.pick is not None and finding.pick.candidate.effect.several
+        key = (finding.effect, finding.joint, k if several else 0)
+        if key not in unique or (unique[key].doubt and not finding.doubt):
+            unique[key] = finding
+    return list(unique.values())
+
+
+def _evaluate_in_table_band(
+    every: Sequence[result.Finding], bands: Sequence[BandSearch]
+) -> tuple[list[result.Finding], State, Residuals]:
+    """Findings of the wider band with the errors that they have in the band of the table.
+
+    And the state with all that is named, and what it leaves of unseen motion.
+    """
+    first, updated_findings = bands[0], list(every)
+    state, residuals = first.search.end, first.held_out_residuals[-1]
+    for i, finding in enumerate(every):
+        if finding.doubt or finding.pick is None or finding in first.findings:
+            continue
+        pick, wider = finding.pick.candidate, bands[-1].search
+        (step,) = (step for step in wider.steps if step.candidate is pick)
+        later = extend_state(state, pick)
+        left = compute_holdout_residuals(later, first.other)
+        score = compare_residuals(
+            residuals, left, find_affected_joints(step.score, state, later), later
+        )
+        ends, why = (score.whole.before, score.whole.after), ""
+        if score.is_better:
+            state, residuals = later, left
+        else:
+            why = f"the error falls only up to {get_cutoff(wider.start.data):.2g} Hz"
+        text = describe_evidence(step, *ends)
+        updated_findings[i] = replace(
+            finding, error_before=ends[0], error_after=ends[1], doubt=why, evidence=text
+        )
+    return updated_findings, state, residuals
+
+
+def _add_event_caveat(
+    finding: result.Finding, joints: Mapping[str, result.JointState]
+) -> result.Finding:
+    """An event, where something acts all the time: what stood out of it may be none."""
+    if (
+        not finding.is_event
+        or finding.objection
+        or not any(j.is_unexplained for j in joints.values())
+    ):
+        return finding
+    return replace(finding, objection="something unexplained acts all the time")
+
+
+def _build_finding(
+    search: Search,
+    k: int,
+    touched: Sequence[int],
+    change: ErrorChange,
+    closed: float,
+    checks: tuple[result.CrossCheck, ...],
+    after: Sequence[float],
+) -> result.Finding:
+    """The finding of the k-th step."""
+    step, end, first = search.steps[k], search.end, k == 0 and not search.prior_steps
+    k += len(search.prior_steps)
+    pick, before, visible = step.candidate, step.before, step.score.visible_share
+    left = np.concatenate([end.residual[j] / before.sigma[j] for j in touched])
+    values, deviations = end.values[k], step.score.deviations * float(np.sqrt(np.mean(left**2)))
+    if pick.is_delay:  # least squares make delays too small
+        values, deviations = estimate_instrumental(before, pick)
+    if is_gain(pick):
+        deviations, visible = compute_gain_deviations(end, k), compute_gain_visibility(end, k)
+    estimate = estimate_effect(end, k, pick, values, deviations)
+    rivals, refines = [tie.candidate for tie in step.equivalents], _is_refinement(search, k)
+    same = [(other, pick.joint) for other in pick.effect.same_as]  # no data distinguish these
+    same = [key for key in same if not is_ruled_out(*key, search.without)]
+    against, errors = find_caveat(end, pick, estimate.parameters), (change.before, change.after)
+    doubt = result.explain_weak_evidence(
+        pick, errors, against, estimate.sigmas, closed, checks, rivals, refines, after
+    )
+    return result.Finding(
+        pick.effect.id,
+        pick.joint,
+        *errors,
+        estimate.parameters,
+        estimate.sigmas,
+        estimate.units,
+        equivalents=tuple(dict.fromkeys([*(rival.key for rival in rivals), *same])),
+        evidence=describe_evidence(step, *errors),
+        closure=closed,
+        is_refinement=refines,
+        objection=against,
+        intervals=estimate.intervals,
+        cross_checks=checks,
+        doubt=doubt,
+        is_first=first,
+        pick=result.FittedCandidate(pick, values, end, visible),
+    )
+
+
+def _is_refinement(search: Search, k: int) -> bool:
+    """True if it mends a law in the model, or an effect of its family named before on its joint.
+
+    Those are smaller than what they mend. What moves the links is felt next to its joint too.
+    """
+    steps = (*search.prior_steps, *search.steps)[: k + 1]
+    mends = [
+        step.candidate.effect.refines_model_term(float(values[0]))
+        for step, values in zip(steps, search.end.values, strict=False)
+    ]
+    step = steps[k]
+    for i, earlier in enumerate(steps[:k]):
+        first, later = earlier.candidate, step.candidate
+        if mends[i]:
+            continue
+        alike = first.joint == later.joint and first.effect.family == later.effect.family
+        moves = first.effect is later.effect and first.effect.acts is EffectTarget.POSITION
+        beside = moves and abs(first.index - later.index) <= 1
+        if (alike or beside) and step.score.torque_share < earlier.score.torque_share:
+            return True
+    return mends[k]
+
+
+def _summarise_joints(
+    search: Search, end: State, residuals: Sequence[Residuals], systematic: Callable[[int], float]
+) -> dict[str, result.JointState]:
+    states, ends = {}, [compute_errors(residuals[k]) for k in (0, -1)]
+    shown = [j for j, y in enumerate(search.start.rows.y) if y.size]
+    # what all joints share is made by the first
+    shares = dict(
+        zip(shown, [*map(systematic, shown[:1]), *map_parts(systematic, shown[1:])], strict=True)
+    )
+    for j, joint in enumerate(search.spec.joints):
+        if j not in shares:
+            continue
+        size = result.compute_mean_square(search.start.rows.y[j])
+        before, after = (result.compute_mean_square(s.residual[j]) for s in (search.start, end))
+        share = after / size if size > 0.0 else math.nan
+        states[joint.name] = result.JointState(
+            error_before=ends[0].get(joint.name, math.nan),
+            error_after=ends[1].get(joint.name, math.nan),
+            unit=joint.effort_unit,
+            rms_before=math.sqrt(before),
+            rms_after=math.sqrt(after),
+            explained=1.0 - share,
+            systematic=share * shares[j],
+            noise=share * (1.0 - shares[j]),
+        )
+    return states
+
+
+def decide_verdict(
+    effects: Sequence[result.Finding], joints: dict[str, result.JointState], search: Search
+) -> str:
+    """Decides one of the five verdicts.
+
+    Args:
+        effects: that are named, best first.
+        joints: by name.
+        search: of the training logs.
+    """
+    if effects:
+        return "missing" if effects[0].is_confirmed else "closest description"
+    if compute_duration(search.start) < THRESHOLDS.min_duration or not any(
+        y.size > 100 for y in search.start.y
+    ):
+        return "cannot tell"
+    if any(state.error_after > THRESHOLDS.max_predictive_error for state in joints.values()):
+        return "cannot tell"
+    if any(state.is_unexplained for state in joints.values()):
+        return "unexplained"
+    return "nothing significant"
+
+
+def list_undetectable_effects(search: Search) -> tuple[result.Key, ...]:
+    """Lists effects that these data cannot show."""
+    has = {(p.effect, p.joint) for p in search.spec.standard}
+    candidate_scores = [j for j in search.ranked if j.key not in has]
+    shown_keys = {j.key for j in candidate_scores}
+    hidden: list[result.Key] = [
+        (effect.id, joint.name)
+        for joint in search.spec.joints
+        if joint.actuated
+        for effect in search.catalogue
+        if effect.whole_axis and (effect.id, joint.name) not in shown_keys
+    ]
+    if search.start.data.fixed_parameters is None:
+        hidden += [(effect.id, None) for effect in search.catalogue if effect.last_link]
+    hidden += _list_unmoved(search.start)
+    shown = [key for key in hidden if not is_ruled_out(*key, search.without)]
+    named_keys = {pick.key for step in search.steps for pick in (step.score, *step.equivalents)}
+    every = [
+        *(j.key for j in candidate_scores if j.visible_share < 2.0 * THRESHOLDS.min_visible_share),
+        *shown,
+    ]
+    undetectable = [key for key in dict.fromkeys(every) if key not in named_keys]
+    assert all(find_effect(name, search.catalogue) is not None for name, _ in undetectable)
+    return tuple(undetectable)
+
+
+def _list_unmoved(state: State) -> list[result.Key]:
+    """All that could be on joints of which no row can be used, or that have one speed only.
+
+    At one speed, functions of the speed are one column: only the moments of reversal differ.
+    """
+    joint_actions = (EffectTarget.JOINT, EffectTarget.MOTOR, EffectTarget.POSITION)
+    steady = [find_single_speed(state, j) is not None for j in range(state.rows.joint_count)]
+    if not any(steady) and all(y.size for y in state.rows.y):
+        return []
+    return [
+        candidate.key
+        for candidate in generate_candidates(state)
+        if candidate.effect.acts in joint_actions
+        and (
+            not state.rows.y[candidate.index].size
+            or (steady[candidate.index] and candidate.form.names == {"v"})
+        )
+    ]

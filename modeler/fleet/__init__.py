@@ -1,5 +1,0 @@
-"""One robot kind, many machines and days: what drifts where."""
-
-import lazy_loader
-
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
