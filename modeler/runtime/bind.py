@@ -486,7 +486,7 @@ class TileLibrary(_ArrayLibrary):
         self._tiled = self._ffi.new(f"{self._runtime}_tiled *", tiled[0])
         if spec.closure is not None:
             self._singles = self._ffi.new("uintptr_t[]", library.closing_addresses)
-            self._tiled.closing_addresses = self._singles
+            self._tiled.singles = self._singles
 
     @property
     def tile_address(self) -> int:

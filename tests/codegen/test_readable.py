@@ -107,9 +107,8 @@ def test_names_are_c_names_and_differ_where_letters_fall_together() -> None:
     label = naming.Label("w", "leg a", "x", "", "", True)
     graph = module("wrist").model.graph
     graph.links["leg a"] = next(iter(graph.links.values()))
-    with module("wrist").model.restore_labels():
-        graph.labels |= {2: label, 3: label, 4: label._replace(link="3", component="")}
-        made = Naming(graph, {"t1": 2, "t2": 3, "t3": 4}, ["W3 = 1;"])
+    labels = {2: label, 3: label, 4: label._replace(link="3", component="")}
+    made = Naming(graph, labels, {"t1": 2, "t2": 3, "t3": 4}, ["W3 = 1;"])
     lines = made.write_names([f"const double t{k} = {k}.0;" for k in (1, 2, 3)], "/* {} */")
     names = [line.split()[-3] for line in lines]
     assert names == ["minus_w_lega_x", "minus_w_lega_x_2", "minus_w3"]

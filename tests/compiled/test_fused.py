@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import ShapeError
-from modeler.runtime import fused, threads
+from modeler.runtime import build, fused
 from modeler.runtime.bind import load_fused_library
 from tests.modules import plain, states
 
@@ -126,7 +126,7 @@ def test_threads_and_blocks_give_the_same_bits(monkeypatch):
     monkeypatch.setattr(fused, "BLOCK", 64)
     found = []
     for count in (1, 2, 7):
-        monkeypatch.setattr(threads, "count_processors", lambda count=count: count)
+        monkeypatch.setattr(build, "count_processors", lambda count=count: count)
         found.append(wrist.triangles(q, qd, qdd, tau))
     for own in found[1:]:
         np.testing.assert_array_equal(own.packed, found[0].packed)

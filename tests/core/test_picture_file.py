@@ -43,7 +43,7 @@ def panel(raw: dict[str, Any]) -> dict[str, Any]:
 SPOILT = {
     "lacks schema": lambda raw: raw.pop("schema"),
     "panels[0][0].series[0].kind is 'pie'": lambda raw: panel(raw)["series"][0].update(kind="pie"),
-    "series[0].x is no array": lambda raw: panel(raw)["series"][0].update(x=["a"]),
+    "series[0].x is not an array": lambda raw: panel(raw)["series"][0].update(x=["a"]),
     "style is missing": lambda raw: panel(raw)["series"][0].pop("style"),
     "'more' is unknown": lambda raw: panel(raw).update(more=1),
     "rows of different lengths": lambda raw: raw["pictures"][0]["panels"][1].pop(),
