@@ -23,7 +23,7 @@ __version__ = "0.1.0"
 
 _ROOMS = (
     "api", "cli", "codegen", "core", "derivation", "diagnosis", "effects", "estimation",
-    "excitation", "formats", "fleet", "formulas", "logs", "numerics", "regression", "papers",
+    "excitation", "formats", "formulas", "logs", "numerics", "regression", "papers",
     "views", "robot", "runtime", "simulation", "studio", "validation",
 )  # fmt: skip
 

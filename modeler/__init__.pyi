@@ -1,6 +1,6 @@
 """What `import modeler` offers: the names of `modeler.api`, loaded when they are used.
 
-Of `effects` and `fleet`, which are rooms, the functions are `modeler.api.effects` and `.fleet`.
+Of `effects`, which is a package, the function is `modeler.api.effects`.
 """
 
 from modeler.api import (
@@ -68,6 +68,7 @@ from .api import (
     compare_models as compare_models,
     diagnose as diagnose,
     fit as fit,
+    fleet as fleet,
     generate as generate,
     identify as identify,
     inspect_log as inspect_log,

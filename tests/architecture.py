@@ -80,9 +80,9 @@ ONLY_IN = {
 }
 
 # The ratchet: it may only be lowered, or raised by a line that says why.
-MOST_PACKAGES = 21  # the workbench in the browser
-MOST_MODULES = 438  # every element of a file by a table, repairs that fits confirm, stamps, MCAP
-MOST_CODE_LINES = 80_300  # names of the field are longer; being shortened package by package
+MOST_PACKAGES = 21  # readers and writers of other formats in one; fleets are validation
+MOST_MODULES = 317  # merged along their only importers
+MOST_CODE_LINES = 78_700  # names of the field are longer, and ruff breaks every line
 MOST_CIRCLES = 0
 
 # Rooms without a face: their modules are collections by subject, each imported by its own name.
@@ -92,7 +92,7 @@ COLLECTIONS = {"core", "numerics"}
 SKINS = (("cli", "api"), ("studio", "api"))
 
 NAMES_THAT_SAY_NOTHING = {"utils", "util", "helpers", "misc", "common", "tools"}
-MODULE_LINES = 760
+MODULE_LINES = 730
 
 
 def broken_rules(package: Path) -> list[str]:

@@ -203,7 +203,7 @@ def test_what_must_not_be_named_would_be_found(line: str) -> None:
     assert any(re.search(pattern, line) for pattern in _FORBIDDEN.values())
 
 
-CONDA = {"matplotlib": "matplotlib-base", "cvxpy": "cvxpy-base"}
+CONDA = {"matplotlib": "matplotlib-base"}
 """What is called otherwise there: parts that need no window and no commercial solver."""
 
 

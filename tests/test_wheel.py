@@ -115,23 +115,23 @@ _USE = """
 import sys
 import numpy as np
 import modeler
-from modeler.runtime import load, load_folder
+from modeler.runtime import load_module, load_folder
 assert modeler.__file__.startswith(sys.prefix), modeler.__file__
 model = load_folder(sys.argv[1])
 assert not {"sympy", "casadi", "jinja2"} & set(sys.modules)
 
-from modeler.derivation import base_parameters
+from modeler.derivation import derive_base_parameters
 from modeler.codegen.emit import emit
 from modeler.robot import read_robot
 from modeler.derivation import derive_model
 symbolic = derive_model(read_robot("two-link"))
-emitted = emit(symbolic, base_parameters(symbolic))
-assert emitted.spec.signature() == model.spec.signature()
+emitted = emit(symbolic, derive_base_parameters(symbolic))
+assert emitted.spec.compute_signature() == model.spec.compute_signature()
 
 rng = np.random.default_rng(5)
 chi, q = rng.normal(size=len(model.spec.standard)), rng.normal(size=(7, 2))
 value = dict(zip((column.name for column in model.spec.standard), chi))
-for compiled in (model, load(emitted.spec, emitted.files)):
+for compiled in (model, load_module(emitted.spec, emitted.files)):
     got = compiled.gravity(q, compiled.base_parameters(chi))
     # The textbook arm, Y up: each joint carries the moments of what comes after it.
     c1, s1, c12, s12 = np.cos(q[:, 0]), np.sin(q[:, 0]), np.cos(q.sum(1)), np.sin(q.sum(1))

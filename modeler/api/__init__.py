@@ -1,6 +1,6 @@
 """All of modeler from Python: a robot, its parameters, its C, a model from logs, what it lacks.
 
-    from modeler.api import auto, compare, compile_model, derive, diagnose, fit, generate, load
+    from modeler.api import add_all, compare, compile_model, derive, diagnose, fit, generate, load
     from modeler.api import observe, simulate
 
     robot = load("emps")                               # a file, or the name of a built-in robot

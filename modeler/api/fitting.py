@@ -91,7 +91,8 @@ def check_options(options: FitOptions, load: Load | None = None) -> None:
     refusals = {
         f"got method {method}{suggest_name(str(method), METHODS)}; expected one of "
         f"{', '.join(METHODS)}": method not in METHODS,
-        "a payload mass, link or move needs a log with the load; name it with --payload-log LOG": (
+        "--payload-mass, --payload-link and --payload-moved need a log with the load; name it with "
+        "--payload-log LOG": (
             load is not None and not loaded and (moved or {load.mass, load.link} != {None})
         ),
         f"method {method} takes no logs with a load; expected {loads} or {GAIN_METHOD}": (

@@ -1,9 +1,9 @@
 """A robot as a regressor of scikit-learn: a row is a sample, a group is a log.
 
 from sklearn.model_selection import LeaveOneGroupOut, cross_val_score
-from modeler.api.regressor import TorqueRegressor, log_rows
+from modeler.api.regressor import TorqueRegressor, read_log_rows
 
-X, y, groups = log_rows("arm.toml", ["mon.csv", "tue.csv", "wed.csv"])
+X, y, groups = read_log_rows("arm.toml", ["mon.csv", "tue.csv", "wed.csv"])
 cross_val_score(TorqueRegressor("arm.toml"), X, y, groups=groups, cv=LeaveOneGroupOut())
 """
 

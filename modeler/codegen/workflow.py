@@ -72,8 +72,9 @@ class Derivation(Result):
 def derive(robot: Robot) -> Derivation:
     r"""Returns the symbolic model and the base parameters with their proof.
 
+    >>> from modeler.robot import read_robot
     >>> derivation = derive(read_robot("two-link"))
-    >>> derivation.base.rank, found.base.proof.kind
+    >>> derivation.base.rank, derivation.base.proof.kind
     (10, 'exact')
     >>> print(derivation.table("base").to_markdown().splitlines()[2])
     | $\mathit{ZZ}_{1R}$ | $\mathit{ZZ}_{1} + L_{1}^{2} M_{2}$ | kg m2 | inertial |

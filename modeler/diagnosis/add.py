@@ -242,8 +242,10 @@ def add_learned_law(
         raise DataError(f"learned: nothing is added: with {what} {why}")
     moved = _compute_parameter_shifts(model, after.model)
     most = THRESHOLDS.max_parameter_shift
-    far = join_names([f"{name} by {shift:.2g}" for name, shift in moved.items() if shift > most])
-    doubt = f"it moves {far} of their sigmas: the law says what these said" if far else ""
+    far = [f"{name} by {shift:.2g}" for name, shift in moved.items() if shift > most]
+    doubt = (
+        f"it moves {join_names(far)} of their sigmas: the law says what these said" if far else ""
+    )
     return after.complete_step(moved=moved, doubt=doubt)
 
 

@@ -39,8 +39,6 @@ from modeler.runtime import CompiledModel, load_module
 FORMAT = 4
 KIND = "modeler model"
 
-_OPENED = (3, FORMAT)  # format 3 has no mapping, and no paths of logs
-
 CHECKSUMS = "checksums"
 """Name of the entry with the checksums of all others."""
 
@@ -300,7 +298,6 @@ def load_model(path: str | Path) -> IdentifiedModel:
         raise _make_refusal(where, what)
     kinds = get_type_hints(IdentifiedModel)
     as_saved = ("robot_text", "sources", "logs", "history", "mapping")
-    raw = {"mapping": {}} | raw if raw["format"] < FORMAT else raw
     further = {name: _read_entry(raw, name, kinds[name], where) for name in as_saved}
     return IdentifiedModel(spec=spec, fit=fit, **further)
 
@@ -339,11 +336,11 @@ def _read_model_file(path: Path) -> dict[str, Any]:
         raise ManifestError(f"{path}: not a model file: it {error}; {expected}") from None
     if not isinstance(raw, dict) or raw.get("kind") != KIND:
         raise ManifestError(f"{path}: JSON, but not a model file; {expected}")
-    if (got := raw.get("format")) not in _OPENED:
+    if (got := raw.get("format")) != FORMAT:
         version = f"model format {shorten_value(got)}" if "format" in raw else "no model format"
         newer = isinstance(got, int) and got > FORMAT
         raise ManifestError(
-            f"{path}: {version}, this version opens {_OPENED[0]} to {FORMAT}; "
+            f"{path}: {version}, this version opens {FORMAT}; "
             f"{'install a newer modeler' if newer else 'fit the model again'}"
         )
     return raw
@@ -495,10 +492,7 @@ def keep_essential(model: IdentifiedModel, where: str) -> IdentifiedModel:
     """
     fit, reduced = model.fit, model.fit.essential
     if reduced is None:
-        raise DataError(
-            f"{where}: holds no reduced model (--essential), it was fitted by an earlier version; "
-            "fit it again"
-        )
+        raise DataError(f"{where}: holds no reduced model (--essential); fit it again")
     estimates = {parameter.name: parameter for parameter in reduced.parameters}
     none: Any = {"value": 0.0, "sigma": None, "essential": False, "interval": None}
     values = [estimates.get(p.name, dataclasses.replace(p, **none)) for p in fit.parameters]

@@ -509,7 +509,7 @@ def _add_names(joints: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def _read_verdict(raw: Mapping[str, Any]) -> Verdict | None:
-    """Returns None where the fit was not judged, as in files of earlier versions."""
+    """Returns None where the fit was not judged."""
     if raw.get("usable") is None:
         return None
     judged = {

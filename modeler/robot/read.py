@@ -67,11 +67,39 @@ from modeler.robot.table import (
 )
 from modeler.robot.thresholds import THRESHOLDS
 
-_KEYS = """
-    name title notes gravity priority legs shared symbols mdh relations platform loops home
-    frames tool links effects own_effects coupling motors parameters reference drive_gains
-    drives limits physical terms log fit diagnose capsules
-"""
+_KEYS = [
+    "name",
+    "title",
+    "notes",
+    "gravity",
+    "priority",
+    "legs",
+    "shared",
+    "symbols",
+    "mdh",
+    "relations",
+    "platform",
+    "loops",
+    "home",
+    "frames",
+    "tool",
+    "links",
+    "effects",
+    "own_effects",
+    "coupling",
+    "motors",
+    "parameters",
+    "reference",
+    "drive_gains",
+    "drives",
+    "limits",
+    "physical",
+    "terms",
+    "log",
+    "fit",
+    "diagnose",
+    "capsules",
+]
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
     "gravity": 'write the acceleration of gravity in frame 0, such as [0, 0, "-g"] with g among '
@@ -303,7 +331,7 @@ def parse_toml_document(text: str, place: TomlCell) -> dict[str, Any]:
 
 def _read_document(text: str, place: TomlCell) -> dict[str, Any]:
     document = parse_toml_document(text, place)
-    place.with_value(document).read_checked_table(_KEYS.split(), "")
+    place.with_value(document).read_checked_table(_KEYS, "")
     for key, advice in _NEEDED.items():
         if key not in document:
             raise place.enter(key).make_error(f"is missing; {advice}")

@@ -434,7 +434,7 @@ def check_units(robot: Robot, values: Mapping[str, float], place: TomlCell) -> l
             )
             check_unit(cell, units, "rad" if column in ANGLES else "m", at)
             size = abs(cell.evaluate({joint.variable: 0.0, **values}))
-            if column not in ANGLES and size > longest and "m" not in cell.units(units):
+            if column not in ANGLES and size > longest and "m" not in cell.infer_units(units):
                 longest, notes = size, [_IN_MM.format(at.location, size)]
     return notes
 

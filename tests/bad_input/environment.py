@@ -29,7 +29,7 @@ def _true(workdir: Workdir) -> None:
 
 # Compilers that are missing or fail, caches that are cut: tests/compiled/test_build.py.
 COMPILER = [
-    on("CC does nothing", "refused", COMPARE, "made nothing", make=_true,
+    on("CC does nothing", "refused", COMPARE, "wrote no library", make=_true,
        CC="WORKDIR/cc.sh"),
     on("CC has an open quote", "refused", COMPARE, "CC", CC='gcc "'),
     on("CC is spaces", "works", COMPARE, CC="   "),

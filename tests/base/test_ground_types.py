@@ -12,16 +12,17 @@ from tests.repository import ROOT
 _RUN = """
 import json
 from sympy.external.gmpy import GROUND_TYPES
-from modeler.derivation import base_parameters
-from modeler.derivation.relations import as_json
+from modeler.derivation import derive_base_parameters
+from modeler.derivation.relations import serialise_base_parameters
 from tests.base.test_hard_tables import CASES, model_of
 from tests.modules import module
 found = {}
 for case in ("given lengths cancel", "angle times length", "tilted base, same symbol"):
     rows, gravity, more, _, kind = CASES[case]
-    found[case] = as_json(case, base_parameters(model_of(rows, gravity, more)))
+    base = derive_base_parameters(model_of(rows, gravity, more))
+    found[case] = serialise_base_parameters(case, base)
 for name in ("orthoglide-leg",):
-    found[name] = as_json(name, module(name).base)
+    found[name] = serialise_base_parameters(name, module(name).base)
 keys = ("base", "unidentifiable", "rank", "counts", "proof")
 print(GROUND_TYPES, json.dumps({n: {key: told[key] for key in keys} for n, told in found.items()}))
 """

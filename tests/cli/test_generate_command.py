@@ -84,7 +84,7 @@ def test_the_c_predicts_what_the_model_does(place, fitted, capsys, tmp_path):
     expected = compile(fitted).inverse_dynamics(q, qd, qdd, fitted.beta)
     got = made("fitted_inverse_dynamics", {"q": q, "qd": qd, "qdd": qdd})
     np.testing.assert_allclose(got, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
-    assert made.spec.compute_signature() == fitted.spec.signature()
+    assert made.spec.compute_signature() == fitted.spec.compute_signature()
 
 
 def test_a_model_that_is_not_usable_is_written_and_told(fitted, capsys, tmp_path):

@@ -7,7 +7,7 @@ from typing import get_args
 
 import pytest
 
-from modeler.cli.derive import _COMMENT, _SHEETS
+from modeler.cli.derive import _COMMENT
 from modeler.cli.parser import Form, read_commands
 from modeler.effects.catalogue import CATALOGUE
 from modeler.simulation import HIDDEN
@@ -63,7 +63,7 @@ def test_what_answers_at_once_loads_nothing_long() -> None:
         assert not packages & LONG, words
 
 
-PICTURES = {"matplotlib", "rich", "h5py", "rosbags", "cvxpy", "IPython"}
+PICTURES = {"matplotlib", "rich", "h5py", "rosbags", "IPython"}
 SLOW = {"scipy.signal", "scipy.stats", "scipy.interpolate", "scipy.optimize", "scipy.io"}
 NUMBERS = {"scipy", "pyarrow", "cffi", "pandas", "threadpoolctl", "clarabel"}
 SYMBOLS = {"sympy", "casadi", "jinja2", "flint"}
@@ -99,7 +99,7 @@ def test_a_command_loads_nothing_long_that_it_has_no_use_for(two_link, tmp_path,
 
 
 def test_choices_are_those_that_commands_know() -> None:
-    for forms in (_SHEETS, _COMMENT):
+    for forms in (_COMMENT,):
         assert set(forms) == set(get_args(Form))
     simulated = {effect.id for effect in CATALOGUE} - {"torque_lag"}  # filters of drives are not
     assert set(HIDDEN) == simulated  # what --hide offers

@@ -111,7 +111,8 @@ _ELSEWHERE = """
 import concurrent.futures, os, pathlib, subprocess, sys, tempfile
 sys.platform = sys.argv[1]
 import modeler.runtime.build as build
-print(build.SUFFIX, "-fPIC" in build._ALWAYS, build._NAMES[-1], build.cache_folder().as_posix())
+print(build.SUFFIX, "-fPIC" in build._ALWAYS, build._NAMES[-1], end=" ")
+print(build.find_cache_folder().as_posix())
 """
 
 
@@ -142,12 +143,12 @@ def test_a_library_that_another_process_has_loaded_stays(tmp_path, monkeypatch) 
         raise PermissionError(13, "in use")
 
     monkeypatch.setattr(Path, "replace", refused)
-    made, final = tmp_path / "made", tmp_path / "entry" / "final.dll"
+    sources, tools = {"a.c": "int modeler_a(void) { return 1; }\n"}, find_toolchain()
     monkeypatch.setattr(build, "is_intact", lambda _: True)
-    build.move_into_cache(made, final)
+    build._build_entry(sources, tools, tmp_path / "cache", "key")
     monkeypatch.setattr(build, "is_intact", lambda _: False)
     with pytest.raises(PermissionError):
-        build.move_into_cache(made, final)
+        build._build_entry(sources, tools, tmp_path / "cache", "key")
 
 
 @pytest.mark.parametrize(
@@ -166,8 +167,9 @@ def test_the_letter_of_a_drive_is_no_window_of_a_log_and_no_unit_of_a_map(place,
 def test_greek_letters_on_a_console_of_windows(letters) -> None:
     """What it has no letter for is shown as its code."""
     command = [sys.executable, "-c", ""
-               "from modeler.cli.console import say, escape_unprintable\n"
-               "escape_unprintable(); say('\u03c3 \u03b8 \u03c4\u0308 \u2264 \u00b1')"]  # fmt: skip
+               "from modeler.cli.console import print_result, escape_unprintable\n"
+               "escape_unprintable()\n"
+               "print_result('\u03c3 \u03b8 \u03c4\u0308 \u2264 \u00b1')"]  # fmt: skip
     environment = {**os.environ, "PYTHONIOENCODING": letters}
     ran = subprocess.run(command, capture_output=True, env=environment, check=True)
     assert b"\\u03b8" in ran.stdout or "\u03b8".encode(letters) in ran.stdout

@@ -257,7 +257,7 @@ def test_an_estimator_without_this_prior_says_so_and_cannot_hold_single_values(
     """It takes the stated values of the bodies, or does without them."""
     robot, compiled_bodies = bodies
     asked = FitOptions(model="energy") if method == "energy" else FitOptions(method)
-    who = "the energy model" if asked.energy else f"method {method}"
+    who = "the energy model" if asked.model == "energy" else f"method {method}"
     told = f"{who} cannot hold parameters.*; got Fv1, Fv2, Fv3, Fs3"
     with pytest.raises(DataError, match=told):
         run_estimator(asked, robot, model, seen)

@@ -143,7 +143,7 @@ def test_smooth_friction_turns_over_its_width(tmp_path) -> None:
 
 @pytest.mark.rotating("long tests of export")
 def test_a_model_has_its_values_in_place_of_beta(tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr("modeler.api.exporting.portable_library", lambda _: b"no need of it")
+    monkeypatch.setattr("modeler.api.exporting.build_portable_library", lambda _: b"no need of it")
     robot = load("two-link")
     model = identify(robot, simulate(robot, duration=4.0, rate=200.0, seed=3))
     found = export(model, tmp_path / "two.casadi")

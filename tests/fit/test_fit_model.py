@@ -266,9 +266,9 @@ def test_entries_may_not_be_added_taken_away_or_put_in_another_order(tmp_path, m
 TEXTS = {
     "none": (b"", "it is empty"),
     "blank": (b" \n ", "it is blank"),
-    "binary": (b"PAR1\x15\x04\xff\x00", "no text in UTF-8 from byte 7"),
+    "binary": (b"PAR1\x15\x04\xff\x00", "not valid UTF-8 (byte 7"),
     "UTF-16": ('{"kind": 1}'.encode("utf-16"), "UTF-16, UTF-32 or binary"),
-    "Latin": ('{"kind": "\u00e9"}'.encode("latin-1"), "no text in UTF-8 from byte 11"),
+    "Latin": ('{"kind": "\u00e9"}'.encode("latin-1"), "not valid UTF-8 (byte 11"),
     "lists": (b"[" * 100_000, "nested too deep"),
     "closed": (b'{"kind":' + b"[" * 100_000 + b"]" * 100_000 + b"}", "nested too deep"),
     "digits": (b'{"format": -' + b"9" * 10_000 + b"}", "a whole number of 10000 digits"),

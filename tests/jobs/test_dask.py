@@ -1,5 +1,6 @@
 """Work on a Dask cluster: equal to that of this process, also where workers are lost."""
 
+import dataclasses
 import os
 import signal
 from collections.abc import Iterator
@@ -198,7 +199,8 @@ def test_commands_on_a_cluster(address: str, place: Path, tmp_path: Path, capsys
 
 
 def test_what_does_not_answer_is_one_line(monkeypatch, distributed: Any) -> None:
-    monkeypatch.setattr(cluster, "_ANSWER", 0.3)
+    short = dataclasses.replace(cluster.THRESHOLDS, scheduler_timeout=0.3)
+    monkeypatch.setattr(cluster, "THRESHOLDS", short)
     for address in ("tcp://127.0.0.1:9", "nonsense://here"):
         with pytest.raises(DataError) as error, open_workers(address):
             pass

@@ -54,7 +54,7 @@ def test_an_interrupt_or_a_kill_while_they_start_leaves_no_word(killed: bool) ->
         "from tests.jobs.work import third\n"
         "if __name__ == '__main__':\n"
         "    with open_workers(processes=3) as workers:\n"
-        "        waiting = workers.begun(third, 'x' * 10**6, range(9), None)\n"
+        "        waiting = workers.start_merge(third, 'x' * 10**6, range(9), None)\n"
         "        print('begun', flush=True)\n"
         "        import time; time.sleep(20)\n"
     )

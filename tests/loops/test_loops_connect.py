@@ -265,7 +265,7 @@ def test_there_are_as_many_base_parameters_as_mujoco_feels(name, folder):
     matrix = matrix[:, lengths > 1e-9] / lengths[lengths > 1e-9]
     singular = np.linalg.svd(matrix, compute_uv=False)
     rank = int(np.sum(singular > 1e-9 * singular[0]))
-    counts = derivation_of(name, folder).base.counts()
+    counts = derivation_of(name, folder).base.count_by_kind()
     assert rank == counts["inertial"] + counts["rotor_inertia"]
 
 

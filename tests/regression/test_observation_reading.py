@@ -187,7 +187,10 @@ FOREIGN = {
         b"time,q1,tau1\n" + b'"0,1","2,5","3,5"\n' * 20,
         r'column time, row 1: got "0,1"; expected a number with a decimal point',
     ),
-    "zeros": (b"time,q1,tau1\n" + b"1,2,3\n" * 20 + bytes(4), "line 22 holds bytes that no text"),
+    "zeros": (
+        b"time,q1,tau1\n" + b"1,2,3\n" * 20 + bytes(4),
+        "line 22 holds bytes that are not text",
+    ),
 }
 
 

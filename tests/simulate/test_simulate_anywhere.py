@@ -21,11 +21,11 @@ from modeler.simulation.portable_math import (
 _WRITE = """
 import sys
 import numpy as np
-from modeler.simulation import SimulationSettings, hidden_from_text, simulate
+from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
 found = {}
 for text in sys.argv[2:]:
     name, *hidden = text.split()
-    hidden = tuple(map(hidden_from_text, hidden))
+    hidden = tuple(map(parse_hidden_effect, hidden))
     log = simulate(load(name), SimulationSettings(duration=2.0, rate=500.0, seed=9, hidden=hidden))
     found |= {f"{name} q": log.q, f"{name} tau": log.tau, f"{name} state": log.truth.q}
 np.savez(sys.argv[1], **found)

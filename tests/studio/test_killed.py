@@ -24,7 +24,7 @@ WORKING = """
 import asyncio, sys
 from pathlib import Path
 from modeler.studio import commands
-from modeler.studio.places import folder_lock
+from modeler.studio.places import lock_folder
 from modeler.studio.project import Workspace
 from modeler.studio.studio import Hub
 
@@ -37,7 +37,7 @@ async def work(hub):
         hub.take(hub.project.step(hub.project.next_number - 2))
 
 folder = Path(sys.argv[1])
-with folder_lock(folder) as own:
+with lock_folder(folder) as own:
     assert own
     print("open", flush=True)
     asyncio.run(work(Hub(Workspace(folder), (), {})))

@@ -72,8 +72,8 @@ def test_nothing_outside_is_chosen(tree: Path, place: str, told: str) -> None:
 HOLD = """
 import sys, time
 from pathlib import Path
-from modeler.studio.places import folder_lock
-with folder_lock(Path(sys.argv[1])) as own:
+from modeler.studio.places import lock_folder
+with lock_folder(Path(sys.argv[1])) as own:
     print(own, flush=True)
     time.sleep(60)
 """

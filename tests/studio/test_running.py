@@ -191,16 +191,15 @@ SERVER = """
 import asyncio, signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)  # tests may run where it is ignored
 from pathlib import Path
-from modeler.studio.running import Running
-from tests.coroutines import run_coroutine
+from modeler.studio.processes import RunningCommand
 async def main():
     folder = Path(sys.argv[1])
-    running = Running(sys.argv[2:], folder, "simulate")
+    running = RunningCommand(sys.argv[2:], folder, "simulate")
     while "simulating" not in running.doing:
         await asyncio.sleep(0.02)
     print("running", flush=True)
     await running.wait()
-run_coroutine(main())
+asyncio.run(main())
 """
 
 

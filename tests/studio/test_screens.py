@@ -70,7 +70,7 @@ def test_an_effect_is_banned_previewed_and_added(arm: Path) -> None:
     async def told(page: Any) -> None:
         project = page.project
         tried = project.steps[-1]
-        assert tried.verb == "add" and (arm / tried.model).is_file() and project.current == 5
+        assert tried.verb == "add" and (arm / tried.model_file).is_file() and project.current == 5
         found = next(step for step in project.steps if step.verb == "diagnose")
         words = ("diagnose", "models/5.json", "logs/train.parquet")
         assert build_command_words(project, found) == (*words, "--holdout", "logs/held_out.parquet")
@@ -231,7 +231,7 @@ def test_a_motion_is_found_and_taken(arm: Path) -> None:
         await page.sees("modeler excite models/5.json --duration 2 --out")
         await page.click("Find the motion")
         step = page.project.steps[-1]
-        found = json.loads((arm / step.result).read_text())
+        found = json.loads((arm / step.result_file).read_text())
         await page.sees(f"Condition number {found['condition_scaled']:.4g}")
         motion = np.loadtxt(arm / step.output, delimiter=",", skiprows=1)
         table = pq.read_table(io.BytesIO(await page.saves("Download Parquet")))
@@ -348,8 +348,8 @@ def test_logs_are_dropped_mapped_cut_and_doubted(tmp_path: Path) -> None:
         guess = ("time=Zeit", "q<j>=Winkel_{j}:deg", "tau<j>=Drehmoment_{j}")
         await page.until(lambda: page.project.mapping == guess, "the guess")
         train = ["logs/a.csv", "logs/b.parquet"]
-        await page.until(lambda: page.project.words("train") == train, "roles")
-        assert page.project.words("test") == ["logs/c.parquet"]
+        await page.until(lambda: page.project.collect_words("train") == train, "roles")
+        assert page.project.collect_words("test") == ["logs/c.parquet"]
         await page.sees("A guess by names")
         await page.until(lambda: plots(page, "joint 1") and page.hub.running is None, "curves")
         await page.until(lambda: page.every(text="why"), "a doubt")
