@@ -42,6 +42,7 @@ from .motion import (
     simulate as simulate,
 )
 from .physical_parameters import physical as physical
+from .postures import home as home, home_posture as home_posture
 from .reexports import (
     Asked as Asked,
     Comparison as Comparison,
@@ -73,8 +74,6 @@ from .workflow import (
     effects as effects,
     estimators as estimators,
     generate as generate,
-    home as home,
-    home_posture as home_posture,
     load_on_gpu as load_on_gpu,
     new_robot as new_robot,
     observe as observe,

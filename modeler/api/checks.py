@@ -53,10 +53,7 @@ def compare(
 
 
 def resolve_models(things: Sequence[IdentifiedModel | Robot]) -> list[IdentifiedModel]:
-    """Returns models; of a robot its `stated_model`, processed as the first model.
-
-    With the processing of the first " "model.
-    """
+    """Returns models; of a robot its `stated_model`, processed as the first model is."""
     fitted = (thing.processing for thing in things if isinstance(thing, IdentifiedModel))
     first = next(fitted, None)
     return [

@@ -294,7 +294,7 @@ def inspect_log(
     compiled: CompiledModel | EmittedModule | None = None,
     mapping: Mapped = (),
 ) -> LogInspection:
-    """Channels, clock, gaps and doubts of a log.
+    """Returns the channels, the clock, the gaps and the doubts of a log.
 
     >>> inspect_log("mon.parquet").table().column("channel")[:3]
     ['time', 'q1', 'q2']

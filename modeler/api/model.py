@@ -413,7 +413,7 @@ class Model(IdentifiedModel):
         return estimation.add_known_load(self, mass, centre, link)
 
     def to_c(self, folder: str | Path, force: bool = False) -> EmittedModule:
-        """Writes its C with its values into a folder, as `generate` does.
+        """Writes the C of the model with its values into a folder, as `generate` does.
 
         >>> model.to_c("arm_c").spec.prefix
         'two_link'

@@ -16,7 +16,6 @@ from modeler.core.errors import DataError, ManifestError
 from modeler.core.files import write_atomically
 from modeler.core.manifest import EmittedModule, ModuleSpec
 from modeler.core.table import Table
-from modeler.derivation import HomeModes, express_as_home, find_modes_near
 from modeler.effects import CATALOGUE
 from modeler.estimation import (
     OF_TRIANGLES,
@@ -27,13 +26,7 @@ from modeler.estimation import (
 )
 from modeler.formats import convert as convert, read_robot
 from modeler.logs import Frame, LogMap, open_blocks
-from modeler.robot import (
-    Robot,
-    insert_own_effect,
-    new_robot as new_robot,
-    parse_robot_text,
-    replace_home,
-)
+from modeler.robot import Robot, insert_own_effect, new_robot as new_robot, parse_robot_text
 from modeler.runtime import CompiledModel, GpuModel, load_gpu, load_module as load_compiled
 from modeler.simulation import SimulatedLog, write_log
 
@@ -72,7 +65,7 @@ Steps = Callable[[str], AbstractContextManager[None]]
 
 
 def ignore_step(title: str) -> AbstractContextManager[None]:
-    """Reports nothing."""
+    """Returns a context for a step that reports nothing."""
     return nullcontext()
 
 
@@ -446,61 +439,3 @@ def load_on_gpu(derivation: Derivation) -> GpuModel:
         EmitError: the robot has loops.
     """
     return load_gpu(generate(derivation, cuda=True))
-
-
-def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = False) -> HomeModes:
-    """Finds the assembly modes of a robot, the best first; `table()` lists them.
-
-    >>> home(load("five-bar")).table().column("mode")
-    ['A', 'B']
-
-    Args:
-        robot: with loops.
-        near: values that are meant, by row, rad or m; None: [home] of the robot.
-        anew: True to search as if the robot stated no [home].
-
-    Raises:
-        LoopError: no loops, or none that can be closed.
-        DataError: a row that is not there.
-    """
-    stated = {} if anew else dict(robot.home)
-    if near is not None:
-        moving = [joint.name for joint in robot.moving_joints]
-        for name in near:
-            if name not in moving:
-                raise DataError(
-                    f"home: near names joint {name}; expected some of {', '.join(moving)}"
-                )
-        names = {joint.name for joint in robot.coordinates}
-        stated = {name: value for name, value in stated.items() if name in names} | dict(near)
-    return find_modes_near(dataclasses.replace(robot, home={}) if anew else robot, stated)
-
-
-def select_mode(modes: HomeModes, letter: str | None, best: bool = False) -> int:
-    """Returns the index of the mode with that letter; by default the robot's own.
-
-    Raises:
-        DataError: no such mode.
-    """
-    if letter is None:
-        return 0 if modes.stated_index is None or best else modes.stated_index
-    letters = [mode.letter for mode in modes.modes]
-    if letter.upper() not in letters:
-        raise DataError(
-            f"--mode {letter}: there is no such mode; expected one of {', '.join(letters)}"
-        )
-    return letters.index(letter.upper())
-
-
-def home_posture(robot: Robot, modes: HomeModes, letter: str | None = None) -> Robot:
-    """Returns the robot with an assembly mode as its [home], in its text too.
-
-    >>> home_posture(load("five-bar"), home(load("five-bar")), "B").name
-    'five-bar'
-
-    Raises:
-        DataError: no such mode.
-    """
-    posture = modes.modes[select_mode(modes, letter)].posture
-    text = replace_home(robot.text, robot.home, express_as_home(modes.linkage, posture))
-    return parse_robot_text(text, f"{robot.name} with its [home]")

@@ -54,7 +54,7 @@ _STORIES = (
 
 
 def run_demo(args: argparse.Namespace) -> Json:
-    """Runs both stories."""
+    """Runs the demonstrations of both built-in stories, and returns their results."""
     check_settings(SimulationSettings(duration=args.duration), ())  # before anything is written
     results = {
         story.robot: _run_story(story, Path(args.out) / story.robot, args) for story in _STORIES

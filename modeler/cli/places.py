@@ -32,7 +32,7 @@ class Word(str):
 
 
 class FilePlace(str):
-    """A file.
+    """The place of a file on the command line.
 
     Attributes:
         endings: of the names of such files.
@@ -134,7 +134,7 @@ class MotionFile(Input):
 
 
 class MotionOrKind(MotionFile):
-    """Such a file, or the name of a kind of motion."""
+    """A table of a motion, or the name of a kind of motion."""
 
     @staticmethod
     def names() -> tuple[str, ...]:
@@ -204,7 +204,7 @@ class OutputFolder(str):
 
 
 class ModuleFolder(OutputFolder):
-    """Of an emitted module."""
+    """The folder of an emitted module."""
 
     writes = (
         "*.c", "*.h", "*.hpp", "*.cu", "*.st", "*.a2l", "*.md", "*.sha256", "*.pc.in", "*.cmake",
@@ -217,7 +217,7 @@ class PictureData(Output):
 
 
 class Pictures(OutputFolder):
-    """Of the pictures of a page; a name that ends in .json is one file with their numbers."""
+    """A folder for a page's pictures; a name that ends in .json is one file with their numbers."""
 
     writes: tuple[str, ...] = ("*.png", "*.svg", "*.csv")
 
@@ -230,19 +230,19 @@ _OF_JOINTS = ("time", "residual", "free_run", "models")
 
 
 class PictureFolder(Pictures):
-    """Of the pictures of a comparison."""
+    """The folder of the pictures of a comparison."""
 
     writes = ("overview.*", *(f"joint_*_{kind}.*" for kind in _OF_JOINTS))
 
 
 class LogPictures(Pictures):
-    """Of the pictures of a log."""
+    """The folder of the pictures of a log."""
 
     writes = ("clock.*", "channels_*.*")
 
 
 class DemoFolder(OutputFolder):
-    """Of `modeler demo`: a folder for each story."""
+    """The folder of `modeler demo`: it holds a folder for each story."""
 
     writes = ("demo-arm/*", "orthoglide-2003/*")
 

@@ -6,19 +6,14 @@ written then, so the program just ends. While a command runs, it is an exception
 half done can be cleaned up.
 """
 
-import argparse
 import contextlib
 import gc
 import os
 import signal
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
-from pathlib import Path
+from contextlib import AbstractContextManager, nullcontext
 from types import FrameType
 from typing import TYPE_CHECKING
-
-from modeler.cli.console import print_note
-from modeler.cli.places import DemoFolder, FilePlace, Output
 
 if TYPE_CHECKING:
     import argparse
@@ -94,6 +89,7 @@ def _run_parsed(words: Sequence[str], phase: Phase) -> None:
 
 def _execute_command(args: "argparse.Namespace", phase: Phase, every_line: bool) -> None:
     with phase():
+        from modeler.cli.browser import open_page_when_done
         from modeler.cli.console import announce_step, run_command, show_clock
         from modeler.cli.places import check_places
 
@@ -128,51 +124,3 @@ def _exit_interrupted(number: int, frame: FrameType | None) -> None:
     with contextlib.suppress(OSError):
         os.write(2, b"modeler: interrupted\n")
     os._exit(INTERRUPTED)
-
-
-@contextmanager
-def open_page_when_done(args: argparse.Namespace) -> Iterator[None]:
-    """Opens the page of `--open` in the browser when the command is done.
-
-    A page that has no place gets one in a temporary folder, which stays if the command is done.
-    """
-    args.page_is_temporary = False
-    if vars(args).get("open") and "report" in args and args.report is None:
-        import tempfile  # these are loaded where they are wanted
-
-        folder = tempfile.mkdtemp(prefix="modeler-")
-        args.report = Output(Path(folder) / f"{args.command}.html")
-        args.page_is_temporary = True
-    try:
-        yield
-    except BaseException:
-        discard_page(args)
-        raise
-    _show_page(args)
-
-
-def discard_page(args: argparse.Namespace) -> None:
-    """Removes the temporary page when the command writes none."""
-    if args.page_is_temporary:
-        with suppress(OSError):  # not empty: the page was written
-            Path(args.report).parent.rmdir()
-        args.report, args.open = None, False
-
-
-def _show_page(args: argparse.Namespace) -> None:
-    """One line where there is no browser, or no page."""
-    if not vars(args).get("open"):
-        return
-    import webbrowser
-
-    page = _locate_page(vars(args).get("report") or args.out)
-    if not page.is_file():
-        print_note("--open: no page was written, so none is shown")
-    elif not webbrowser.open(page.resolve().as_uri()):
-        print_note(f"--open: no browser was found; open {page} in one")
-
-
-def _locate_page(place: str) -> Path:
-    if isinstance(place, DemoFolder):
-        return Path(place) / "index.html"
-    return place.file if isinstance(place, FilePlace) else Path(place)

@@ -3,12 +3,10 @@
 import argparse
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.api.exporting import export
-from modeler.api.model import open_model
-from modeler.api.workflow import home as home_modes, select_mode
 from modeler.cli.console import (
     Json,
     print_error,
@@ -24,7 +22,6 @@ from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.choices import CONVENTIONS, TEMPLATES
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import write_atomically
-from modeler.derivation import HomeModes, Linkage, express_as_home
 from modeler.formats import convert, parse_lock_values
 from modeler.robot import (
     Robot,
@@ -46,6 +43,9 @@ from modeler.views import (
     serialise_posture,
     show,
 )
+
+if TYPE_CHECKING:
+    from modeler.derivation import HomeModes, Linkage
 
 _FILES = (
     "a URDF, MJCF or SYMORO file needs no new one: every command reads it, or `modeler convert`"
@@ -136,6 +136,9 @@ MODE_PICTURES = (*PICTURE_KINDS, ".html")
 
 def run_home(args: argparse.Namespace) -> Json:
     """Prints the assembly modes, draws them, writes one into the robot file."""
+    from modeler.api.postures import home as home_modes, select_mode  # symbols take long to load
+    from modeler.derivation import express_as_home
+
     kind = "" if args.picture is None else Path(args.picture).suffix.lower()
     if args.picture is not None and kind not in MODE_PICTURES:
         raise DataError(
@@ -187,7 +190,7 @@ def run_home(args: argparse.Namespace) -> Json:
     }
 
 
-def _draw_modes(modes: HomeModes, kind: str) -> bytes:
+def _draw_modes(modes: "HomeModes", kind: str) -> bytes:
     """A small picture of every assembly mode, beside each other: a file that needs no other."""
     from modeler.views import render_modes
 
@@ -221,7 +224,7 @@ def _parse_near(args: argparse.Namespace, robot: Robot) -> dict[str, float] | No
     return dict(read_home(TomlCell("--near", value=values), moving, robot.evaluate_symbols()))
 
 
-def _format_table(assembly: HomeModes) -> list[str]:
+def _format_table(assembly: "HomeModes") -> list[str]:
     linkage, modes = assembly.linkage, assembly.modes
     actuated_joints = list(linkage.loops.actuated)
     count = f"{len(modes)} assembly mode{'s' if len(modes) > 1 else ''}"
@@ -247,7 +250,7 @@ def _format_table(assembly: HomeModes) -> list[str]:
     return [*lines, ""]
 
 
-def _format_values(linkage: Linkage, u: np.ndarray, places: list[int]) -> str:
+def _format_values(linkage: "Linkage", u: np.ndarray, places: list[int]) -> str:
     """`q1 = 1.571 rad (90.00 deg), q3 = 0.33 m`."""
     texts = []
     for k in places:
@@ -259,6 +262,9 @@ def _format_values(linkage: Linkage, u: np.ndarray, places: list[int]) -> str:
 
 def run_export(args: argparse.Namespace) -> Json:
     """Writes the file; prints its numbers and what it cannot hold."""
+    from modeler.api.exporting import export  # equations and models take long to load
+    from modeler.api.model import open_model
+
     model = open_model(args.source) if Path(args.source).suffix.lower() == ".json" else None
     thing = read_robot_with_notes(args.source) if model is None else model
     for line in () if model is None else model.warning:

@@ -191,19 +191,19 @@ class _Writer:
     temporaries: dict[str, int] = field(default_factory=dict)
 
     def is_call(self, index: int) -> bool:
-        """True if C calls a function for it, which stands before the arithmetic."""
+        """Returns True if C calls a function for the node, which stands before the arithmetic."""
         node = self.graph.nodes[index]
         return node.op in (*_HOISTED, *self.graph.tables) or (
             node.op == "sign" and node.args[0] in self.widths
         )
 
     def take_lines(self) -> tuple[str, ...]:
-        """The lines since the last call."""
+        """Returns the lines written since the last call, and forgets them."""
         lines, self.lines = tuple(self.lines), []
         return lines
 
     def format_output(self, value: Expr) -> str:
-        """Text of an output."""
+        """Returns the C text of an output."""
         if value.is_zero:
             return self._spread_constant(
                 0, format_number(Fraction(0), self.target.constant_target)
@@ -231,7 +231,7 @@ class _Writer:
         return format_sum(self.texts[abs(first)], first > 0, self.texts[abs(second)], second > 0)
 
     def visit_node(self, root: int) -> None:
-        """Write `root` and what it needs, arguments first; no recursion, graphs are deep."""
+        """Writes `root` and what it needs, arguments first; no recursion, graphs are deep."""
         stack = [(root, False)]
         while stack:
             index, ready = stack.pop()

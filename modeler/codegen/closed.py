@@ -68,12 +68,12 @@ class LoopSolver:
 
     @property
     def equation_count(self) -> int:
-        """Returns how many different ones there are."""
+        """Returns the number of different equations by which the loops close."""
         return len(self.closure.equations) + len(self.closure.others)
 
     @property
     def turned_from(self) -> int:
-        """Returns place of the first sine or cosine there."""
+        """Returns the place of the first sine or cosine among the values."""
         return len(self.values) - len(self.shared_sines.values)
 
     @property

@@ -87,7 +87,7 @@ def build_symbol_lines(
 
 
 def find_deciding_symbols(geometry: Geometry) -> frozenset[str]:
-    """Symbols left in the geometry that cannot change without changing its structure.
+    """Finds the symbols in the geometry that cannot change without changing its structure.
 
     `d = "L1 + L2 - L3"` worth 0 is left out of the table, an angle `"a1 + a2"` worth pi/2 is that
     right angle: with another L1 or a1 the entries would not be those of the table any more. So the

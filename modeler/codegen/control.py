@@ -241,7 +241,7 @@ def build_closed_control_functions(
 
 
 def build_fitted_closed(functions: Sequence[CFunction]) -> tuple[CFunction, ...]:
-    """Twins of those that read beta, with the fitted values."""
+    """Builds the twins, with the fitted values, of the functions that read beta."""
     twins = []
     for f in functions:
         if f.composed is None or all(a.name != "beta" for a in f.inputs):
@@ -316,7 +316,7 @@ _ROWS = ("base_regressor", "base_regressor_nonzeros", "tree_base_regressor", "tr
 
 
 def select_roles(functions: Sequence[CFunction], only: Sequence[str], robot: str) -> frozenset[str]:
-    """Roles of the functions that stay: those that are asked for, and what they call.
+    """Selects the roles of the functions that stay: those asked for, and what they call.
 
     A role stands for its twin with fitted values too.
 
@@ -387,7 +387,7 @@ def build_control_functions(
 def build_fitted_control_functions(
     model: SymbolicModel, base: BaseParameters, fitted: FittedSpec, plain: Sequence[CFunction]
 ) -> tuple[CFunction, ...]:
-    """Twins of those that read beta, without it: the values are written into them.
+    """Builds the twins of functions that read beta, with the values written into them.
 
     Args:
         model: as derived.

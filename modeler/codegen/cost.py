@@ -62,7 +62,7 @@ class _CallGraph:
     edges: Mapping[str, frozenset[str]]
 
     def find_deepest(self, name: str) -> tuple[int | None, frozenset[str]]:
-        """Bytes of stack of a call at most, and the functions outside that it may reach.
+        """Returns the bytes of stack of a call at most, and the functions outside it may reach.
 
         None where the graph has no body of that name.
         """

@@ -244,7 +244,7 @@ class _Factors:
         return self.graph.symbol(f"lu[{len(self.values) - 1}]")
 
     def solve(self, right: Sequence[Expr], bound: bool = False) -> list[Expr]:
-        """x with A x = right; as a bound, |A^-1| right <= x.
+        """Returns x with A x = right; as a bound, |A^-1| right <= x.
 
         The inverse of a triangle is at most that of its comparison matrix.
         """

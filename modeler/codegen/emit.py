@@ -163,7 +163,7 @@ def build_function_specs(
     by_role = {function.role: function for function in (*called, *functions)}
 
     def collect_roles(role: str) -> set[str]:
-        """Roles of the straight lines of code that a function consists of."""
+        """Collects the roles of the straight lines of code that a function consists of."""
         function = by_role.get(role)
         made = function and (function.closed or function.composed)
         if not made:

@@ -115,9 +115,7 @@ def _twin(role: str) -> str:
 def find_widths(
     prefix: str, model: SymbolicModel, functions: Sequence[CFunction]
 ) -> Mapping[int, Width]:
-    """Returns {speed.
-
-    Its width} of the joints and motors of whose speed the functions read the sign.
+    """Returns {speed: its width} of joints and motors of whose speed functions read the sign.
 
     Joints that always move alike have one speed, and the width of the first of them; a joint and
     its motor have one width. A sign of anything else than such a speed leaps where it did.

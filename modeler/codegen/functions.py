@@ -83,7 +83,7 @@ class Composed:
 
     @property
     def calls(self) -> tuple[str, ...]:
-        """Roles of the functions that it calls."""
+        """Returns the roles of the functions that it calls."""
         return tuple(self.roles.values())
 
 
@@ -126,7 +126,7 @@ class Closed:
 
     @property
     def calls(self) -> tuple[str, ...]:
-        """Roles of the tree's functions that it calls."""
+        """Returns the roles of the tree's functions that it calls."""
         head = self.loops.removesuffix("loops")
         closing = [f"tree_{head}{part}" for part in ("factor", "solve", "turned")]
         if self.kind not in ("posture", "poses"):

@@ -260,7 +260,7 @@ class Expression:
         return not self.names and self.evaluate() == 0.0
 
     def evaluate(self, values: Mapping[str, float] | None = None) -> float:
-        """Returns its value in floating point, with `values` for the names.
+        """Returns the value of the expression in floating point, with `values` for the names.
 
         The same on every machine.
         """
@@ -307,7 +307,7 @@ class _Algebra:
     power: Callable[[Any, Any], Any]
 
     def evaluate(self, node: ast.expr) -> Any:
-        """The value of a part."""
+        """Returns the value of a part of an expression."""
         if isinstance(node, ast.Constant):
             return self.constant(_parse_fraction(node, self.text))
         if isinstance(node, ast.Name):
@@ -379,7 +379,7 @@ def format_tree(tree: ast.expr) -> str:
 
 
 def format_decimal(value: Fraction, halves: bool = False) -> str | None:
-    """Returns `0.1564`, exactly.
+    """Returns a number as an exact decimal, such as `0.1564`.
 
     None for a whole number and what has no end as a decimal, such as 1/3.
 

@@ -77,7 +77,7 @@ class Curve:
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Dots."""
+    """A series drawn as dots."""
 
     label: str
     x: np.ndarray

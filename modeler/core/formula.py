@@ -94,7 +94,7 @@ _GREEK = {
 
 @dataclass(frozen=True)
 class Formula:
-    """A node.
+    """A node of the tree of a formula.
 
     Attributes:
         kind: "name", "number" and "operator" have a text; "row" stands in a line, "fenced" in
@@ -306,7 +306,7 @@ class _LatexReader:
         self.at = 0
 
     def read_boxes(self, end: str = "") -> tuple[LatexBox, ...]:
-        """Up to the token `end`, which is taken."""
+        """Reads boxes up to the token `end`, which is taken, and returns them."""
         boxes: list[LatexBox] = []
         while self.at < len(self.tokens):
             token = self._take_token()

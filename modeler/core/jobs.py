@@ -91,7 +91,7 @@ class Workers:
 
 @contextmanager
 def open_workers(dask: str | None = None, processes: int = 1) -> Iterator[Workers]:
-    """Workers: a Dask cluster, processes of this machine, or this process itself.
+    """Opens workers: a Dask cluster, processes of this machine, or this process itself.
 
     Args:
         dask: address of a scheduler, as tcp://host:8786, or "local"; None: no Dask.
@@ -111,7 +111,7 @@ def open_workers(dask: str | None = None, processes: int = 1) -> Iterator[Worker
 
 
 def merge_pairwise(results: Sequence[R], merge: Callable[[R, R], R]) -> R:
-    """Results merged as `pairs` says."""
+    """Merges results in the order of `list_merge_pairs`; returns the one that is left."""
     merged = list(results)
     for left, right in list_merge_pairs(len(merged)):
         merged[left] = merge(merged[left], merged[right])

@@ -77,7 +77,7 @@ def convert_to_plain(content: Any) -> Any:
 
 
 def select_attributes(thing: Any, names: str) -> dict[str, Any]:
-    """Attributes by name, as JSON names them too; the names with spaces between."""
+    """Returns attributes by name, as JSON names them too; the names with spaces between."""
     return {name: getattr(thing, name) for name in names.split()}
 
 

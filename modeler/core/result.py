@@ -132,7 +132,7 @@ class Result(ShortRepr):
         )
 
     def save(self, path: str | Path) -> Path:
-        """Writes it to a file, in the way that its ending says.
+        """Writes the result to a file, in the way that its ending says.
 
         Args:
             path: .json for plain data, .html for its page, .csv .md .tex for its main table,

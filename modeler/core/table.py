@@ -31,7 +31,7 @@ Cell = str | int | float | bool | MathCell | None
 
 @dataclass(frozen=True, eq=False)
 class Table(ShortRepr):
-    """A table.
+    """A table with a title, and columns that have names and units.
 
     >>> print(Table("links", (("name", ""), ("mass", "kg")), (("arm", 1.5), ("hand", 0.25))))
     links

@@ -101,7 +101,7 @@ class TomlCell:
         return self.value
 
     def read_items(self, example: str) -> "Iterator[tuple[str, TomlCell]]":
-        """Returns the keys of a TOML table, each with what stands there."""
+        """Yields the keys of a TOML table, each with the cell of its value."""
         for key, value in self.read_table(example).items():
             yield key, self.enter(quote_value(key), value)
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError, LoopError, RobotError
 from modeler.core.result import Result
 from modeler.derivation.closure import check_mobility, describe_open_loop, find_nearest_closed
@@ -267,8 +268,8 @@ def count_constant_ratios(linkage: Linkage, u: np.ndarray) -> np.ndarray:
     return np.where(enough, loops.unknown_count - moving, 0)
 
 
-@dataclass(frozen=True)
-class AssemblyMode:
+@dataclass(frozen=True, repr=False)
+class AssemblyMode(ShortRepr):
     """One way to put the links together.
 
     Attributes:

@@ -79,7 +79,7 @@ _OWN = {"rotor_inertia": INERTIA, "offset": OFFSET}
 
 @dataclass(frozen=True)
 class GroupingUnits:
-    """All units of a robot.
+    """All units of a robot that are grouped to base parameters: one single-row column each.
 
     Attributes:
         columns: one single-row column per unit.
@@ -450,7 +450,7 @@ class _Attempt:
         return relations
 
     def derive_numeric(self, why: str) -> BaseParameters:
-        """The base parameters in floating point, for that reason."""
+        """Derives the base parameters in floating point, for the reason `why`."""
         exact = partial(enclose_factors, self.model, self.sample, self.seed)
         parameters, unidentifiable, bound = derive_numeric_grouping(
             self.model, self.sample, self.numeric, exact

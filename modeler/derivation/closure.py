@@ -112,10 +112,7 @@ class LoopEquations(ShortRepr):
         return flat.reshape(len(u), len(self.equations), self.unknown_count)
 
     def linearise_loops(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Returns residuals, openness and Jacobians of (n, unknowns), which share most steps.
-
-        Which " "share most steps.
-        """
+        """Returns residuals, openness and Jacobians of (n, unknowns), which share most steps."""
         slopes = [entry for line in self.jacobian for entry in line]
         count, every = len(self.equations), len(self.equations) + len(self.others)
         results = self.evaluate_expressions([*self.equations, *self.others, *slopes], u)

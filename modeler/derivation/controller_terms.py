@@ -1,4 +1,4 @@
-"""Coriolis matrix by composite links, over any algebra.
+"""Terms of a controller: Coriolis matrix, momenta, regressors, poses and Jacobians of frames.
 
 C is that of Christoffel symbols: of a body made of points, C = sum of m J^T dJ/dt over the points,
 where J dq/dt is the velocity of the point. So C v is linear in v, C qd is the Coriolis torque, and
@@ -426,10 +426,7 @@ def derive_energy_regressor(model: SymbolicModel) -> Entries:
 
 
 def derive_power_regressor(model: SymbolicModel) -> Entries:
-    """Returns d of tau .
-
-    qd = d/dt (h chi) + d chi, one row: the power that friction and offsets take.
-    """
+    """Returns the row d of tau . qd = d/dt (h chi) + d chi: power of friction and offsets."""
     qd, zero = model.get_inputs("qd"), model.graph.constant(0)
 
     def build_shaft_entries(part: ShaftColumn) -> dict[int, Expr]:

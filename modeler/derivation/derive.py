@@ -1,4 +1,4 @@
-"""Linear relations that loops imply: constant ratios between joints, found and proven.
+"""From a robot to its symbolic model; constant ratios between joints that its loops imply.
 
 u_p = sum c_k u_k + constant. How the constant depends on a symbol is seen by closing the loops anew
 with a slightly different value of it: the derivative is a rational number, of a length also a
@@ -45,9 +45,7 @@ class RelationConstants:
         self.loops, self.home, self.derived = closure, np.array(closure.home), derived
 
     def find_terms(self, coefficients: np.ndarray, angular: bool) -> list[Term] | None:
-        """Returns the constant coefficients .
-
-        home as a sum of terms, or None.
+        """Returns the constant of a relation, coefficients . home, as a sum of terms, or None.
 
         Args:
             coefficients: by variable: 1 for the one that follows, -c_k for the others.

@@ -74,7 +74,7 @@ class _CosineRing:
         self.ring, *self.generators = ring([f"x{i}" for i in range(len(self.names))], QQ)
 
     def convert_terms(self, terms: Terms, pairs: Sequence[int]) -> PolyElement:
-        """The polynomial divided by (1 + t**2)**pairs for each angle."""
+        """Returns the polynomial divided by (1 + t**2)**pairs for each angle."""
         total = self.ring.zero
         for monomial, coefficient in terms.items():
             term = self.ring.one * coefficient
@@ -93,14 +93,14 @@ class _CosineRing:
         return factor * (s * half) if single else factor
 
     def eliminate_squares(self, poly: PolyElement, keep_cosines: Sequence[bool]) -> PolyElement:
-        """With s**2 = 1 - c**2 (keep cosines) or c**2 = 1 - s**2, per angle."""
+        """Returns `poly` with s**2 = 1 - c**2 (keep cosines) or c**2 = 1 - s**2, per angle."""
         for slot, keep in zip(self.angles, keep_cosines, strict=True):
             gone, stays = (slot + 1, slot) if keep else (slot, slot + 1)
             poly = replace_square(poly, gone, 1 - self.generators[stays] ** 2)
         return poly
 
     def find_shortest_form(self, poly: PolyElement) -> sympy.Expr:
-        """The expanded form of fewest terms; with many angles the choices are made in turn."""
+        """Returns the expanded form of fewest terms; many angles are decided in turn."""
         count = len(self.angles)
         if count <= THRESHOLDS.exhaustive_angles:
             choices = product((True, False), repeat=count)
@@ -509,7 +509,7 @@ Residues = np.ndarray
 
 
 def fill_residues(value: int, points: int, prime: int) -> Residues:
-    """Returns the same residue at all points."""
+    """Returns one value modulo the prime, as the residue at every point."""
     return np.full(points, value % prime, dtype=np.int64 if prime == SMALL else object)
 
 

@@ -136,7 +136,7 @@ Form = Mapping[int, Fraction]
 def resolve_relations(
     robot: Robot, symbols: Mapping[str, sympy.Expr]
 ) -> tuple[tuple[Form, ...], dict[str, sympy.Expr]]:
-    """Forms of the moving rows, in table order, and the constants of the relations, by row.
+    """Returns the forms of the moving rows, in table order, and the relations' constants by row.
 
     q_row = sum of form[k] u[k] + constant. A symbol in a coefficient counts with its value: the
     coefficients are rational numbers.
@@ -385,7 +385,7 @@ class _Cells:
         return self.snap_angle(self._fold_cell(joint, column, self.symbols))
 
     def read_affine(self, joint: Joint, column: str) -> tuple[sympy.Expr, int]:
-        """(constant part, coefficient of the joint variable) of theta or r."""
+        """Returns (constant part, coefficient of the joint variable) of theta or r."""
         q = sympy.Symbol(joint.variable, real=True)
         value = sympy.expand(self._fold_cell(joint, column, {**self.symbols, joint.variable: q}))
         rate = value.coeff(q, 1)
@@ -406,7 +406,7 @@ class _Cells:
             raise DerivationError(f"{self.where(joint, column)}: {error}") from None
 
     def snap_angle(self, value: sympy.Expr) -> sympy.Expr:
-        """The angle, exact where its value is a right angle."""
+        """Returns the angle, exact where its value is a right angle."""
         if not value.free_symbols:
             return value
         values = {symbol: self.numbers[symbol.name] for symbol in value.free_symbols}

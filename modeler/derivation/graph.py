@@ -1,4 +1,4 @@
-"""What values of the recursions are, for those who write them as text."""
+"""Graph of expressions: nodes that are shared, derivatives, and the labels of what they mean."""
 
 import hashlib
 import operator
@@ -154,7 +154,7 @@ Operand = Union["Expr", int, Fraction]
 
 @dataclass(frozen=True, slots=True)
 class Node:
-    """One operation.
+    """One operation of a graph.
 
     Attributes:
         op: "num" (args: a positive Fraction), "pi" (no args), "sym" (args: name), "add", "mul",

@@ -28,7 +28,7 @@ from modeler.derivation.graph import (
 
 
 class Algebra(Protocol):
-    """Abstract: holds no data."""
+    """The arithmetic in which kinematics are computed; abstract, holds no data."""
 
     def static(self, value: sympy.Expr) -> Scalar:
         """Returns a geometric constant."""

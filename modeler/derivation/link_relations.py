@@ -185,7 +185,7 @@ def build_joint_motion(angular: bool) -> tuple[tuple[Matrix, Matrix], ...]:
         basis = [(0, 0), (1, 0), (2, 0)]
 
     def select_factors(matrix: Matrix, at: tuple[int, int]) -> Matrix:
-        """What stands at a basis function, s**2 being 1 - c**2."""
+        """Returns what stands at a basis function in every entry, s**2 being 1 - c**2."""
         reduced = [[replace_square(entry, 1, 1 - x**2) for entry in line] for line in matrix]
         return [[entry.get(at, QQ(0)) for entry in line] for line in reduced]
 
@@ -264,7 +264,7 @@ class _TreeStep:
         self.motion = build_joint_motion(row.joint.is_revolute) if row.index is not None else ()
 
     def derive_grouping(self, absent: list[int]) -> LinkGrouping:
-        """What the antecedent hides; `absent` are the joint columns that the robot has not."""
+        """Derives what the antecedent hides; `absent` are joint columns that the robot has not."""
         K = self.K
         if not self.motion:
             return LinkGrouping([], [])
@@ -281,7 +281,7 @@ class _TreeStep:
         )
 
     def derive_kernels(self) -> FrameKernels:
-        """What vanishes identically of the link's own motion."""
+        """Derives the kernels of what vanishes identically of the link's own motion."""
         K = self.K
         if not self.motion:
             return _propagate_kernels(self.before, self.constant, K)
@@ -342,7 +342,7 @@ def _propagate_kernels(reach: FrameKernels, step: ConstantPlacement, K: ExactFie
     """The reach of a frame posed at (R, p) on a frame: what vanishes, told in its coordinates."""
 
     def propagate_rows(rows: Matrix, width: int, transfer: Callable[[], Matrix]) -> Matrix:
-        """Rows for the next frame; where all vanish there is nothing to compute."""
+        """Returns the rows for the next frame; where all vanish there is nothing to compute."""
         if len(rows) == width:
             return rows
         return multiply_matrices(rows, transfer(), K.zero) if rows else []
@@ -442,7 +442,7 @@ class _ClosureProducts:
         ]
 
     def find_distinct(self, K: ExactField, seed: int) -> list[int]:
-        """Numbers of the products that are not zero, nor equal to one before."""
+        """Finds the numbers of the products that are not zero, nor equal to one before."""
         state = ModularState(self.geometry, K, THRESHOLDS.distinct_points, seed)
         known = {bytes(2 * 8 * THRESHOLDS.distinct_points)}
         numbers = []
@@ -454,7 +454,7 @@ class _ClosureProducts:
         return numbers
 
     def compute_rows(self, state: ModularState, places: Sequence[int]) -> np.ndarray:
-        """(2 points, places): rows of 2T, then of the power of gravity."""
+        """Computes the rows (2 points, places) of 2T, then of the power of gravity."""
         count = len(self.columns)
         standard_places = [place for place in places if place < count]
         energies = state.compute_energy_rows([self.columns[i] for i in standard_places]).T
@@ -485,7 +485,7 @@ class _LoopPath:
         ]
 
     def compute_products(self, state: ModularState) -> list[Residues]:
-        """(2 points,) each: what vanishes by w and v of the bodies, and by gravity."""
+        """Computes (2 points,) products that vanish by w and v of the bodies, and by gravity."""
         products: list[Residues] = []
         for end, vanishing in self._find_vanishing(state):
             nothing = 0 * vanishing

@@ -1,4 +1,4 @@
-"""The standard parameters of a robot: which columns the regressor has, and in which order."""
+"""The symbolic model tau = phi chi: its standard parameters, columns and effects."""
 
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
@@ -58,7 +58,7 @@ class _Column(ShortRepr):
 
     @property
     def parts(self) -> tuple[Self, ...]:
-        """The column on every row that has the parameter, each for itself."""
+        """Returns the column on every row that has the parameter, each for itself."""
         return (replace(self, others=()), *self.others)
 
 

@@ -1,4 +1,4 @@
-"""An independent check of the grouping, modulo a prime.
+"""Exact linear algebra modulo a prime: an independent check of the grouping; ties of loops.
 
 The energy rows are computed anew, in the base frame, at random states and random geometry modulo a
 prime: a rank found there is a lower bound of the true rank (a minor that does not vanish modulo the
@@ -549,7 +549,7 @@ class _CoefficientSampler:
         self._known: dict[Point, dict[tuple[int, int], int]] = {}
 
     def evaluate_coefficient(self, at: tuple[int, int], geometries: Sequence[Point]) -> list[int]:
-        """The coefficient `at` = (dependent column, kept column) at the geometries.
+        """Returns the coefficient `at` = (dependent column, kept column) at the geometries.
 
         Raises:
             TooLarge: there the column is not the combination that it was at one geometry.

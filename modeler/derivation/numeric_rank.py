@@ -1,4 +1,4 @@
-"""The same question in floating point: rank of the torque regressor at random states."""
+"""Rank of the torque regressor in floating point and in ball arithmetic, at random states."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -615,17 +615,17 @@ class _RowSelection:
 
     @property
     def used_states(self) -> list[int]:
-        """Numbers of the states whose rows are chosen."""
+        """Returns the numbers of the states whose rows are chosen."""
         return sorted({row // self.width for row in self.rows})
 
     def locate_rows(self) -> tuple[tuple[int, str], ...]:
-        """(number among the used states, joint) of every row."""
+        """Returns (number among the used states, joint) of every row."""
         order = {state: place for place, state in enumerate(self.used_states)}
         names = [joint.name for joint in self.model.robot.coordinates]
         return tuple((order[row // self.width], names[row % self.width]) for row in self.rows)
 
     def collect_exact_states(self) -> tuple[ExactState, ...]:
-        """The states whose rows are chosen."""
+        """Collects the states whose rows are chosen, exactly as they are to be read."""
         free = [joint.name for joint in self.model.robot.free_joints]
         names = [joint.name for joint in self.model.robot.coordinates]
         rounded = np.round(self.u, THRESHOLDS.enclosed_decimals)
@@ -640,7 +640,7 @@ class _RowSelection:
         )
 
     def enclose_matrix(self, columns: Sequence[int]) -> list[list[Any]]:
-        """The chosen rows of these columns in balls; those of the base columns are scaled.
+        """Returns the chosen rows of these columns in balls; those of the base columns are scaled.
 
         Raises:
             NotEnclosed: a posture is not proven to exist.

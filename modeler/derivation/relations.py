@@ -1,4 +1,4 @@
-"""What the base stage hands on: the minimal parameters, as exact symbolic statements."""
+"""Base parameters as exact symbolic statements: grouping relations, proof, text, LaTeX, JSON."""
 
 import fnmatch
 import textwrap
@@ -403,10 +403,7 @@ def serialise_base_parameters(robot: str, base: BaseParameters) -> dict[str, Any
 
 
 def parse_base_parameter(entry: Mapping[str, Any], halves: bool = False) -> BaseParameter:
-    """Parses a base parameter as JSON states it; its column is not known.
-
-    Its place among the columns is " "not kept.
-    """
+    """Parses a base parameter as JSON states it; its place among the columns is not known."""
     terms = []
     for term in entry["terms"]:
         read = parse_expression(str(term["coefficient"]))

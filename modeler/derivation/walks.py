@@ -80,7 +80,7 @@ class _Walkers:
         return f, J, np.linalg.slogdet(J[:, :, self.solved])[0], openness
 
     def advance_walkers(self) -> np.ndarray:
-        """One step of every walker; the postures, all but closed, that are reached by it."""
+        """Advances every walker a step; returns the all but closed postures that were reached."""
         f, J, sign, openness = self._linearise_loops(self.u)
         lost = openness > THRESHOLDS.max_open_residual * self.loops.size
         (low, high), margin = self.ranges.T, THRESHOLDS.max_walk_step * self.scale

@@ -159,7 +159,7 @@ class _FittedModel:
         return analyse_logs(self.rows.compiled, logs, self.model.processing, prepared=first)
 
     def replace_history(self, steps: tuple[Addition, ...]) -> "_FittedModel":
-        """Returns the same model with this history."""
+        """Returns the model with another history."""
         return replace(self, model=replace(self.model, history=steps))
 
     def complete_step(self, **notes: Any) -> IdentifiedModel:

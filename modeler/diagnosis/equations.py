@@ -288,7 +288,7 @@ class JointSearch:
         return self.score_formulas(column.formula for column in columns)
 
     def refine_formula(self, item: ScoredFormula) -> ScoredFormula:
-        """Refines its parameters on all rows by variable projection (Kaufman 1975)."""
+        """Refines a formula's parameters on all rows by variable projection (Kaufman 1975)."""
         formula, start = item.formula, np.array([*item.formula.nonlinear_parameters.values()])
         if not start.size:
             return item
@@ -323,7 +323,7 @@ class JointSearch:
         return any(self.judge_candidate(item.candidate) is not None for item in few)
 
     def judge_candidate(self, candidate: Candidate) -> scoring.ScoredCandidate | None:
-        """Scores it as an effect of the catalogue; None if it is not significant."""
+        """Scores a candidate as an effect of the catalogue; None if it is not significant."""
         pair = candidate, build_columns(self.state.rows, candidate)
         return scoring.select_best(self.state, scoring.score_candidates(self.state, [pair])).best
 
@@ -381,7 +381,7 @@ class JointSearch:
         return list(formulas)
 
     def list_neighbours(self, formula: Formula) -> tuple[list[Formula], list[Formula]]:
-        """Lists it without a factor or a term, and with a plain factor in place of one."""
+        """Lists the formula without a factor or a term, and with a plain factor in place of one."""
         shorter = [Formula((term,)) for term in formula.terms if len(formula.terms) > 1]
         others = list[Formula]()
         for k, term in enumerate(formula.terms):

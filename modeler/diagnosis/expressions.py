@@ -27,7 +27,7 @@ _SPEEDS = {"v", "a"}  # what equations of robots with loops may read
 
 @dataclass(frozen=True)
 class Factor(ShortRepr):
-    """A factor with values of its shapes.
+    """A factor of a term, with values of its shapes.
 
     Attributes:
         effect: as an effect would be.
@@ -41,7 +41,7 @@ class Factor(ShortRepr):
 
     @property
     def equations(self) -> list[str]:
-        """Returns its equations: one, or the sine and the cosine of a wave."""
+        """Returns the equations of the factor: one, or the sine and the cosine of a wave."""
         return [column.equation.text for column in self.effect.columns]
 
     @property
@@ -73,7 +73,7 @@ class Factor(ShortRepr):
         return [float(f"{x:.6g}") for x in (value - size, value, value + size)]
 
     def clip_parameters(self, shapes: Mapping[str, float]) -> "Factor":
-        """Returns the same with other values of its parameters, within their limits."""
+        """Returns the factor with other values of its parameters, within their limits."""
         clipped_values = dict(shapes)
         for shape in self.effect.forms[0].nonlinear_parameters:
             if shape.scale != "waves":
@@ -94,7 +94,7 @@ class Formula(ShortRepr):
 
     @cached_property
     def named_factors(self) -> list[tuple[Factor, dict[str, str]]]:
-        """Returns its factors with the names of their parameters: of two vs the second is vs2."""
+        """Returns the factors with the names of their parameters: of two vs the second is vs2."""
         entries, taken = [], list[str]()
         for part in itertools.chain(*self.terms):
             taken += part.nonlinear_parameters
@@ -110,7 +110,7 @@ class Formula(ShortRepr):
 
     @cached_property
     def equations(self) -> list[str]:
-        """Returns its equations."""
+        """Returns the equations of the columns of the formula."""
         equations, every = list[str](), iter(self.named_factors)
         for term in self.terms:
             named = []
@@ -129,12 +129,12 @@ class Formula(ShortRepr):
 
     @property
     def text(self) -> str:
-        """Returns its columns as text."""
+        """Returns the columns of the formula as text."""
         return " + ".join([*self.equations, *([f"z of {self.lag_text}"] if self.lag_text else [])])
 
     @property
     def title(self) -> str:
-        """Returns its title in words."""
+        """Returns the title of the formula in words."""
         return " and ".join(" times ".join(p.effect.title for p in term) for term in self.terms)
 
     @property
@@ -152,7 +152,7 @@ class Formula(ShortRepr):
         return few and sum(part.has_memory for part, _ in self.named_factors) < 2
 
     def set_parameters(self, shapes: Mapping[str, float]) -> "Formula":
-        """Returns the same with other values of its parameters."""
+        """Returns the formula with other values of its parameters."""
         every = iter(
             part.clip_parameters({key: shapes[name] for key, name in names.items()})
             for part, names in self.named_factors
@@ -160,7 +160,7 @@ class Formula(ShortRepr):
         return Formula(tuple(tuple(next(every) for _ in term) for term in self.terms))
 
     def build_definition(self, prefixes: Sequence[str]) -> dict[str, Any]:
-        """Builds its table of `[own_effects]` but for title and units."""
+        """Builds the formula's table of `[own_effects]` but for title and units."""
         table: dict[str, Any] = {"columns": dict(zip(prefixes, self.equations, strict=False))}
         if self.lag_text:
             table["lag"] = self.lag_text

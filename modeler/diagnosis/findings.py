@@ -66,7 +66,7 @@ from modeler.runtime import map_parts
 
 @dataclass(frozen=True, eq=False)
 class CrossCheckData:
-    """Another look.
+    """Another look at the logs, by which an effect is checked.
 
     Attributes:
         what: which, in words.

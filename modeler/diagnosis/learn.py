@@ -52,7 +52,7 @@ _FIRST = (1e-2, 1.0)  # smoothness in which coordinates are compared
 
 @dataclass(frozen=True)
 class LawCoordinates(ShortRepr):
-    """Of what a law is a function.
+    """The quantities of which a law is a function.
 
     Attributes:
         arguments: one or two equations in the variables of effects.
@@ -83,7 +83,7 @@ class LawCoordinates(ShortRepr):
         return self.cells or (CELLS[len(self.arguments) - 1],) * len(self.arguments)
 
     def scale_parameter(self, name: str, factor: float) -> "LawCoordinates":
-        """Returns the same with a parameter of what it reads multiplied."""
+        """Returns the coordinates with a parameter of what the law reads multiplied."""
         (value,) = self.further["shapes"][name]
         shapes = self.further["shapes"] | {name: [float(f"{value * factor:.4g}")]}
         return replace(self, further=dict(self.further) | {"shapes": shapes})

@@ -330,7 +330,7 @@ def _solve_least_squares(
 
 @dataclass(frozen=True, eq=False)
 class TimeBlocks(ShortRepr):
-    """Of an observation.
+    """Blocks of time of an observation, and the folds that they are in.
 
     Attributes:
         number: (s,) block of each sample.
@@ -379,7 +379,7 @@ def build_time_blocks(observation: Observation) -> TimeBlocks:
 
 @dataclass(frozen=True, eq=False)
 class Ranking:
-    """Of N candidates; weighted units: the residual of each joint has variance about 1.
+    """The falls of N candidates, weighted: the residual of each joint has variance about 1.
 
     Attributes:
         reductions: (blocks, N) fall of the squared residual in blocks that were held out.
@@ -426,7 +426,7 @@ def rank_candidates(base: GramBlocks, pool: CandidateBatch) -> Ranking:
 def compute_reductions(base: GramBlocks, pool: CandidateBatch) -> np.ndarray:
     """Computes the fall of the squared residual in held-out blocks, (blocks, N).
 
-    " "`Ranking.reductions`.
+    These are `Ranking.reductions`.
     """
     crossed = base.fold_fits
     at = (crossed.fold_index, len(crossed.beta))

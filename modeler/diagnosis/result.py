@@ -54,7 +54,7 @@ class CrossCheck:
     expected: float = 0.0
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Returns what the other look says of the effect, as plain data."""
         leads = None if self.leads is None else _describe_key(self.leads)
         return {"leads": leads, **select_attributes(self, "what agrees gain expected")}
 
@@ -82,7 +82,7 @@ class ParameterChange:
 
 @dataclass(frozen=True, eq=False)
 class PushWindow:
-    """When it pushed.
+    """A stretch of time in which something pushed the robot.
 
     Attributes:
         log: index.
@@ -311,7 +311,7 @@ class Finding(ShortRepr):
         return 1.0 - (self.error_after / before) ** 2 if before > 0.0 else math.nan
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Returns the missing effect as plain data."""
         return {
             **select_attributes(self, "effect joint status gain error_before error_after"),
             **select_attributes(self, "parameters sigmas intervals units"),
@@ -389,7 +389,7 @@ class EquationProposal(ShortRepr):
         return [*self.summary_lines, *(f"    {line}" for line in self.text.splitlines())]
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Returns the proposed equation as plain data."""
         return {
             **select_attributes(self.finding, "effect joint error_before error_after gain"),
             **select_attributes(self.finding, "parameters sigmas intervals units"),
@@ -423,7 +423,7 @@ class JointDiscovery(ShortRepr):
         return [line for proposal in self.proposals for line in proposal.format_lines()]
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Returns what was looked for on the joint, as plain data."""
         return {
             **select_attributes(self, "joint share law why"),
             "proposals": [p.to_json() for p in self.proposals],
@@ -550,7 +550,7 @@ class Diagnosis(Result):
         return self.search.start.data.fixed_parameters is not None
 
     def to_json(self) -> dict[str, Any]:
-        """The `diagnose` object that scripts read; numbers that mean nothing are null."""
+        """Returns the `diagnose` object that scripts read; numbers that mean nothing are null."""
         joints = self.joints.items()
         proposed = self.discoveries
         return convert_to_plain(

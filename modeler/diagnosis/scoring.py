@@ -81,7 +81,7 @@ class ErrorChange:
 
 @dataclass(frozen=True)
 class Score:
-    """Of a change of a model.
+    """The score of a change of a model.
 
     Attributes:
         joints: those with rows and torque.

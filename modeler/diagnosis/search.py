@@ -144,7 +144,7 @@ class CandidateScan:
         return [score for score in refused if is_refused(score)]
 
     def exclude_vetoed(self, vetoed: Sequence[ScoredCandidate]) -> "CandidateScan":
-        """Returns the same without what was vetoed."""
+        """Returns the scan without the candidates that were vetoed."""
         touched = {t.candidate.key for t in self.fits if is_vetoed(t.candidate, vetoed)}
         if not touched:
             return self

@@ -70,7 +70,7 @@ class SignalReference(ShortRepr):
 
 @dataclass(frozen=True, eq=False)
 class Signals(ShortRepr):
-    """Of one segment; n samples, J joints.
+    """The motion of one segment, as effects read it; n samples, J joints.
 
     Attributes:
         segment: where it comes from.
@@ -384,9 +384,9 @@ def compute_tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.
 
 
 def compute_tilt_axes(reference: SignalReference) -> np.ndarray:
-    """(k, 3) directions of the first of `compute_tilt_columns`.
+    """Computes the directions (k, 3) of the first of `compute_tilt_columns`.
 
-    Those of the change of gravity " "itself.
+    Those of the change of gravity itself.
     """
     basis = compute_tilt_basis(reference)
     assert basis is not None, "there is gravity"

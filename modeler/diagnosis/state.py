@@ -62,7 +62,7 @@ class SearchData(ShortRepr):
 
     @cached_property
     def time_blocks(self) -> ranking.TimeBlocks:
-        """Returns blocks and folds."""
+        """Returns the blocks of time of the observation, and their folds."""
         return ranking.build_time_blocks(self.observation)
 
     @cached_property
@@ -181,7 +181,7 @@ class State(ShortRepr):
 
     @cached_property
     def fold_grams(self) -> ranking.GramBlocks:
-        """Returns the same by folds."""
+        """Returns the Gram matrices of the model so far, by fold."""
         return ranking.merge_blocks(self.gram_blocks)
 
     @cached_property
@@ -190,7 +190,7 @@ class State(ShortRepr):
         return self.data.reduction.append_columns(self.extra)
 
     def replace_weights(self, later: "State") -> "State":
-        """Returns the same with residuals and prior of a state with more effects."""
+        """Returns the state with residuals and prior of a state with more effects."""
         first = self.prior.shape[1] - 1
         prior = later.prior[:, [*range(first), -1]]
         return replace(self, adopted_weights=(later.sigma, prior))

@@ -204,11 +204,11 @@ class Form(ShortRepr):
 
     @cached_property
     def other_joint_names(self) -> frozenset[str]:
-        """Returns those of other joints."""
+        """Returns the names in the equations that stand for other joints."""
         return self.names - VARIABLES.keys()
 
     def find_references_to(self, joint: str) -> list[str]:
-        """Returns those that name that joint, on which the effect cannot act therefore."""
+        """Returns names of that joint in the equations: the effect cannot act on it therefore."""
         return sorted(name for name in self.other_joint_names if name[1:] == joint)
 
 

@@ -206,7 +206,7 @@ def _compute_spacing(observation: Observation) -> float:
 
 @dataclass(frozen=True)
 class HalvesComparison:
-    """Holds what differs.
+    """Holds what differs between the halves of signals.
 
     Attributes:
         factors: (c,) on the standard deviations, 1 and more.

@@ -76,7 +76,7 @@ class GainEstimate:
 
     @property
     def gap(self) -> float:
-        """s[-2] / s[-1]; infinite with one drive, or without noise."""
+        """Returns s[-2] / s[-1], singular values; infinite with one drive, or without noise."""
         last = self.singular[-2:]
         if len(last) < 2 or last[1] <= THRESHOLDS.tiny_share * last[0]:
             return float("inf")

@@ -1,4 +1,4 @@
-"""Rows of logs with other channels: turned, in other units, at other times, of another gravity.
+"""Hypotheses on channels of logs: turned, other units, other times, another gravity.
 
 Gravity is a vector g of frame 0 that the torques of logs carry. Torques are linear in it beside
 standard parameters, tau = (W_motion + sum_d g_d G_d) chi, where
@@ -51,7 +51,7 @@ class ThinnedRows:
 
     @property
     def motion(self) -> np.ndarray:
-        """(3, samples, n) q, qd, qdd."""
+        """Returns the motion q, qd, qdd of the samples, (3, samples, n)."""
         every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
         return np.concatenate(every, axis=1)
 

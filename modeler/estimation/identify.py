@@ -69,7 +69,7 @@ class Estimator:
 
     @property
     def takes_prior(self) -> bool:
-        """False of those that have one of their own: what a robot file states would be a second."""
+        """Returns False of estimators with their own prior: a robot file's would be a second."""
         return not (self.about.is_consistent or self.about.id == "ridge")
 
 
@@ -143,13 +143,13 @@ class Equations:
 
     @cached_property
     def W(self) -> np.ndarray:
-        """(rows, c + loads)."""
+        """Returns W (rows, c + loads): columns of the base parameters, then of the loads."""
         W = self.observation.W
         return np.column_stack([W, self.extra]) if self.extra.shape[1] else W
 
     @property
     def stored_matrix(self) -> np.ndarray | None:
-        """W; None where it is large and the base parameters' alone: then rows are streamed."""
+        """Returns W; None where it is large and without loads: then its rows are streamed."""
         return None if not self.loaded_logs and is_streamed(self.observation) else self.W
 
     def select_conditions(self, counted: np.ndarray) -> dict[str, np.ndarray]:
@@ -161,7 +161,7 @@ class Equations:
         return {"bare": counted & ~loaded, "loaded": counted & loaded}
 
     def append_columns(self, columns: np.ndarray, names: Sequence[str]) -> "Equations":
-        """Returns the same with further columns (rows, k), and the torques as measured."""
+        """Returns the equations with further columns (rows, k), and the torques as measured."""
         return dataclasses.replace(
             self,
             extra=np.column_stack([self.extra, columns]),

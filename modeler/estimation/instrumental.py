@@ -503,7 +503,7 @@ def estimate_iv_direct(problem: Problem) -> Estimate:
 
 
 def estimate_iv_direct_consistent(problem: Problem) -> Estimate:
-    """Returns the same; all parameters that are simulated are physically consistent."""
+    """Returns the estimate of `estimate_iv_direct`, simulated with consistent parameters only."""
     method = "iv-direct-consistent"
     return _iterate_simulation(
         problem,

@@ -94,17 +94,17 @@ class Rows:
 
     @property
     def W(self) -> np.ndarray:
-        """(rows, c)."""
+        """Returns the matrix W (rows, c) of the rows."""
         return self.observation.W if self.matrix is None else self.matrix
 
     @property
     def has_streamed_rows(self) -> bool:
-        """True if W is better not built: it is large."""
+        """Returns True if W is better not built: it is large."""
         return self.matrix is None and is_streamed(self.observation)
 
     @property
     def row_joint(self) -> np.ndarray:
-        """(rows,) index of the joint of each row."""
+        """Returns the index (rows,) of the joint of each row."""
         return self.observation.row_joint
 
     def compute_residual(self, beta: np.ndarray) -> np.ndarray:

@@ -54,7 +54,7 @@ class NormalEquations:
     cross: np.ndarray
 
     def scale_torques(self, places: int | Sequence[int], gain: float) -> "NormalEquations":
-        """Returns those of the log with the torques of some joints multiplied by a gain."""
+        """Returns the equations with the torques of some joints of the log multiplied by a gain."""
         gains = np.where(np.isin(np.arange(len(self.gram)), places), gain, 1.0)
         return NormalEquations(self.gram / gains[:, None, None] ** 2, self.cross / gains[:, None])
 
@@ -178,24 +178,24 @@ class Evidence:
 
     @cached_property
     def data(self) -> NormalEquations:
-        """Of the log as it is."""
+        """Returns the normal equations of the log as it is."""
         return self.build_equations(self.rows.W)
 
     @cached_property
     def errors(self) -> np.ndarray:
-        """(k,) of the log as it is."""
+        """Returns the errors (k,) that the judge finds in the log as it is."""
         return self.judge.compute_errors(self.data)
 
     @cached_property
     def has_large_errors(self) -> bool:
-        """True if much is left, or consistent parameters leave far more than the fit."""
+        """Returns True if much is left, or consistent parameters leave far more than the fit."""
         free = self.judge.compute_errors(self.data, possible=False)
         suspicious = bool(self.errors.max() > THRESHOLDS.suspicious_error)
         return suspicious or _compute_evidence(free, self.errors) > THRESHOLDS.min_evidence
 
     @property
     def is_tree(self) -> bool:
-        """True if joints move on their own: positions that do not close loops have no torque."""
+        """Returns True without loops: positions that do not close loops have no torque."""
         return self.compiled.spec.closure is None
 
     def get_joint_name(self, place: int) -> str:
@@ -205,7 +205,7 @@ class Evidence:
     def build_equations(
         self, W: np.ndarray, tau: np.ndarray | None = None, used: np.ndarray | None = None
     ) -> NormalEquations:
-        """Returns those of columns W (m, n, c), with the measured torques or others (m, n)."""
+        """Builds the equations of W (m, n, c), with the measured torques or others (m, n)."""
         tau, used = self.rows.tau if tau is None else tau, self.rows.used if used is None else used
         return _build_normal_equations(W, tau, used, self.joints)
 

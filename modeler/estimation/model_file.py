@@ -134,11 +134,11 @@ class Addition(Result):
 
     @property
     def learned(self) -> bool:
-        """True of a law that was learned, which is no physics."""
+        """Returns True of a law that was learned, which is no physics."""
         return bool(self.moved)
 
     def to_json(self) -> dict[str, Any]:
-        """Returns plain data, without the robot file."""
+        """Returns the added effect as plain data, without the robot file."""
         names = "joint error training_error shapes shape_sigmas shape_intervals held_out"
         return {
             "effect": self.effect or None,
@@ -173,7 +173,7 @@ class IdentifiedModel(Result):
 
     @property
     def error_reduction_shares(self) -> tuple[float, float] | None:
-        """Of the fall of the error since the first fit, what physics and what learned laws took.
+        """Returns what physics and what learned laws took of the error since the first fit.
 
         Falls of the relative error, in the order in which they were added; None without learned
         laws.
@@ -187,22 +187,22 @@ class IdentifiedModel(Result):
 
     @property
     def beta(self) -> np.ndarray:
-        """(c,) base parameters, manifest order."""
+        """Returns the base parameters (c,) in the order of the manifest."""
         return self.fit.beta
 
     @property
     def covariance(self) -> np.ndarray:
-        """(c, c) of beta."""
+        """Returns the covariance (c, c) of the base parameters beta."""
         return self.fit.covariance
 
     @property
     def processing(self) -> Processing:
-        """How the fitted data were processed; use it for held-out logs."""
+        """Returns how the fitted data were processed; use it for held-out logs."""
         return self.fit.processing
 
     @property
     def warning(self) -> list[str]:
-        """A line if its fit is not valid."""
+        """Returns a line of warning if the fit is not valid, else no line."""
         return [] if self.fit.verdict is None else self.fit.verdict.format_warning()
 
     def to_json(self) -> dict[str, Any]:

@@ -47,13 +47,13 @@ class ParameterEstimate:
 
     @property
     def relative_sigma_percent(self) -> float | None:
-        """100 sigma / |value|; None where that means nothing."""
+        """Returns 100 sigma / |value|; None where that means nothing."""
         if self.sigma is None or self.value == 0.0:
             return None
         return 100.0 * self.sigma / abs(self.value)
 
     def to_json(self) -> dict[str, Any]:
-        """Returns plain data."""
+        """Returns the estimated parameter as plain data."""
         names = "name value sigma relative_sigma_percent essential unit status prior interval"
         return select_attributes(self, names)
 
@@ -70,7 +70,7 @@ def read_back(kind: type[T], raw: Mapping[str, Any], place: str) -> T:
 
 
 def read_all(kind: type[T], raw: Mapping[str, Any], name: str) -> tuple[T, ...]:
-    """Reads what stands in a list of an object."""
+    """Reads the entries of a list of an object."""
     return tuple(read_back(kind, one, f"{name}[{i}]") for i, one in enumerate(raw[name]))
 
 
@@ -299,7 +299,7 @@ class ReducedModel(ShortRepr):
     limit: float | None
 
     def to_json(self) -> dict[str, Any]:
-        """Returns plain data."""
+        """Returns the essential parameters and what was left out as plain data."""
         return vars(self) | {"parameters": [parameter.to_json() for parameter in self.parameters]}
 
 

@@ -66,7 +66,7 @@ class PhysicalParameters:
 
     @property
     def bounds(self) -> tuple[str, ...]:
-        """Names of what physics bounds: links, then parameters."""
+        """Returns the names of what physics bounds: links, then parameters."""
         return (*self.links, *self.positive)
 
 
@@ -266,21 +266,21 @@ class _Problem:
 
     @cached_property
     def other_places(self) -> np.ndarray:
-        """Places in chi of what is no link's: friction, rotor inertias, offsets, loads."""
+        """Returns places in chi of what is no link's: friction, rotor inertias, offsets, loads."""
         return np.setdiff1d(np.arange(self.A.shape[1]), [*self.machine.links.values()])
 
     @cached_property
     def is_nonnegative(self) -> np.ndarray:
-        """(others,) True for those that cannot be negative."""
+        """Returns True, (others,), for the parameters that cannot be negative."""
         return np.isin(self.other_places, list(self.machine.positive.values()))
 
     @cached_property
     def scale(self) -> np.ndarray:
-        """(others,) of their values, so that their columns have length one."""
+        """Returns the scales (others,) of values of no link that give their columns length one."""
         return 1.0 / compute_column_norms(self.A[:, self.other_places])
 
     def assemble_chi(self, bodies: Mapping[str, np.ndarray], others: np.ndarray) -> np.ndarray:
-        """Returns (m,) all unknowns."""
+        """Returns chi (m,), assembled from the bodies and the other values."""
         chi = np.zeros(self.A.shape[1])
         for name, places in self.machine.links.items():
             chi[places] = extract_parameters(bodies[name])

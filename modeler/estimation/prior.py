@@ -67,16 +67,16 @@ class Prior:
 
     @property
     def has_bodies(self) -> bool:
-        """True if something is known of the mass of a link."""
+        """Returns True if something is known of the mass of a link."""
         return any(len(places) > 1 for places in self.groups.values())
 
     def exclude_groups(self, names: Sequence[str]) -> "Prior":
-        """Returns the same without some groups."""
+        """Returns the prior without some groups."""
         groups = {name: places for name, places in self.groups.items() if name not in names}
         return dataclasses.replace(self, groups=groups)
 
     def scale_sigmas(self, factors: Mapping[str, float]) -> "Prior":
-        """Returns the same with standard deviations of some groups so many times as large."""
+        """Returns the prior with standard deviations of some groups so many times as large."""
         scale = np.ones(len(self.S))
         for name, factor in factors.items():
             scale[self.groups[name]] *= factor

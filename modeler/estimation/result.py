@@ -55,7 +55,7 @@ class ModelFigures(ShortRepr):
     joint_sigma: Mapping[str, float] = field(default_factory=dict)
 
     def format_cells(self) -> tuple[str, ...]:
-        """Returns its line of the table."""
+        """Returns the cells of the model's line of the table."""
         return (
             f"{self.rows}",
             f"{self.condition_scaled:.4g}",
@@ -85,7 +85,7 @@ class EnergyReport(ShortRepr):
 
     @property
     def ratio(self) -> float:
-        """Uncertainty of the torques over that of the torque model, at the joint where it is most.
+        """Returns the uncertainty of the torques over the torque model's, at the worst joint.
 
         Over all joints together the largest torques alone would count.
         """
@@ -101,7 +101,7 @@ class EnergyReport(ShortRepr):
         return max(ratios.items(), key=lambda item: item[1])
 
     def format_lines(self) -> list[str]:
-        """Returns lines of text."""
+        """Returns the lines of a table of the figures of both models, and what they mean."""
         head = ("rows", "cond", "known", "error", "sigma", "missed", "bias")
         rows = [("model", head), *((item.model, item.format_cells()) for item in self.figures)]
         widths = (7, 10, 7, 10, 10, 9, 13)
@@ -140,7 +140,7 @@ class EnergyReport(ShortRepr):
         return [first, second]
 
     def to_json(self) -> dict[str, Any]:
-        """Returns plain data."""
+        """Returns the comparison of the energy model with the torque model as plain data."""
         return select_attributes(self, "window relative_error parameters ratio") | {
             "figures": [vars(item) for item in self.figures],
             "sentences": self.format_sentences(),
@@ -177,7 +177,7 @@ class DirectedFriction:
     relation: str
 
     def to_json(self) -> dict[str, Any]:
-        """Returns plain data."""
+        """Returns the friction of the joint in that direction as plain data."""
         share = 100.0 * self.sigma / abs(self.value) if self.value else None
         return vars(self) | {"relative_sigma_percent": share}
 
@@ -262,7 +262,7 @@ class JointFit:
 
     @property
     def squares(self) -> tuple[float, float]:
-        """||tau - W chi||^2 and ||tau||^2; the latter 0 where nothing is known of it."""
+        """Returns ||tau - W chi||^2 and ||tau||^2; the latter 0 where nothing is known of it."""
         left = self.rows * self.rms**2
         return left, left / self.relative_error**2 if self.relative_error else 0.0
 
@@ -376,12 +376,12 @@ class FitResult(Result):
 
     @property
     def beta(self) -> np.ndarray:
-        """(c,) values of the base parameters, manifest order, SI units."""
+        """Returns the values (c,) of the base parameters, manifest order, SI units."""
         return np.array([parameter.value for parameter in self.parameters])
 
     @property
     def by_unit(self) -> dict[str, float]:
-        """Relative error over the joints of one unit, by unit; NaN without torque."""
+        """Returns the relative error over the joints of one unit, by unit; NaN without torque."""
         return pool_errors_by_unit((joint.unit, *joint.squares) for joint in self.joints)
 
     def format_error(self) -> str:

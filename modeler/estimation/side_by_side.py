@@ -45,7 +45,7 @@ class MethodResult(ShortRepr):
     remarks: tuple[str, ...]
 
     def to_json(self) -> dict[str, Any]:
-        """Returns plain data."""
+        """Returns what the estimator gives as plain data."""
         return {
             "method": self.method,
             **select_attributes(ABOUT[self.method], "title avoid"),

@@ -286,7 +286,7 @@ class Configuration:
 
 @dataclass(frozen=True, eq=False)
 class TwoStepEstimate:
-    """Holds both steps.
+    """Holds both steps of the estimate.
 
     Attributes:
         directions: how the coordinates move with each joint.
@@ -504,7 +504,7 @@ class PersistentExcitation:
 
     @property
     def rank(self) -> int:
-        """Of Phi at these configurations."""
+        """Returns the rank of Phi at these configurations."""
         return len(self.singular_values)
 
     def format_line(self) -> str:
@@ -527,7 +527,7 @@ class PersistentExcitation:
         )
 
     def to_json(self) -> dict[str, Any]:
-        """Returns plain data."""
+        """Returns rank and singular values of Phi as plain data."""
         names = "joint configurations singular_values rank possible_rank usual_ratio"
         return select_attributes(self, names)
 

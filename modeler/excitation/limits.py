@@ -5,7 +5,7 @@ import math
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,7 +13,9 @@ from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, LoopError
 from modeler.core.json import select_attributes
 from modeler.excitation.thresholds import THRESHOLDS
-from modeler.runtime import CompiledModel
+
+if TYPE_CHECKING:
+    from modeler.runtime import CompiledModel
 
 BASE = -1
 """Carrier of what stands still."""
@@ -122,7 +124,7 @@ class ClosestApproach(ShortRepr):
     points: np.ndarray
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Returns the closest approach as plain data."""
         return {
             "pair": list(self.pair),
             **select_attributes(self, "distance bound time"),
@@ -158,21 +160,21 @@ class Clearance(ShortRepr):
         )
 
     def to_json(self, near: ClosestApproach | None) -> dict[str, Any]:
-        """Plain data."""
+        """Returns the clearance, and what is nearest in a motion, as plain data."""
         return {
             "margin": self.margin,
             "left_out": [list(each) for each in self.left_out],
             "nearest": None if near is None else near.to_json(),
         }
 
-    def compute_shares(self, compiled: CompiledModel, q: np.ndarray) -> np.ndarray:
+    def compute_shares(self, compiled: "CompiledModel", q: np.ndarray) -> np.ndarray:
         """Computes exp((margin - distance) / median radius), (n, pairs): < 1 where far apart."""
         ends = self.solids.place_capsules(compiled.forward_kinematics(q))
         gaps = self.solids.compute_distances(ends)[0]
         return np.exp((self.margin - gaps) / self.solids.median_radius)
 
     def pull_back_gradient(
-        self, compiled: CompiledModel, q: np.ndarray, pull: np.ndarray, steps: np.ndarray
+        self, compiled: "CompiledModel", q: np.ndarray, pull: np.ndarray, steps: np.ndarray
     ) -> np.ndarray:
         """Computes the derivative by q, (n, J), of a number with derivative `pull` by the shares.
 
@@ -206,7 +208,7 @@ class Clearance(ShortRepr):
 
 
 def exclude_neighbours(
-    compiled: CompiledModel,
+    compiled: "CompiledModel",
     solids: CollisionGeometry,
     margin: float,
     ranges: np.ndarray,
@@ -242,7 +244,7 @@ def exclude_neighbours(
 
 
 def find_closest_approach(
-    compiled: CompiledModel,
+    compiled: "CompiledModel",
     solids: CollisionGeometry,
     path: Callable[[np.ndarray], np.ndarray],
     duration: float,
@@ -397,7 +399,7 @@ class PostureLimits:
         fastest: of the same groups, the size of G that counts as the limit.
     """
 
-    compiled: CompiledModel
+    compiled: "CompiledModel"
     bounds: MotionBounds
     kinds: tuple[np.ndarray, ...] = ()
     fastest: tuple[float, ...] = ()
@@ -414,7 +416,7 @@ class PostureLimits:
         return np.hstack(parts)
 
     def compute_stated_shares(self, q: np.ndarray) -> np.ndarray:
-        """Computes those of loops, passive joints and boxes, (n, r)."""
+        """Computes the shares of the limits of loops, passive joints and boxes, (n, r)."""
         parts = []
         if self.kinds:
             parts.append(self.compute_coupling_sizes(q) / np.array(self.fastest))
@@ -455,7 +457,7 @@ class PostureLimits:
         return slope
 
 
-def build_posture_limits(compiled: CompiledModel, bounds: MotionBounds) -> PostureLimits:
+def build_posture_limits(compiled: "CompiledModel", bounds: MotionBounds) -> PostureLimits:
     """Builds what the positions of a robot must keep to.
 
     Raises:
@@ -503,7 +505,7 @@ class LimitExcess(ShortRepr):
     step: tuple[float, float] | None = None
 
     def format_line(self) -> str:
-        """Formats it as a sentence."""
+        """Returns the excess over the limit as a sentence."""
         step = ""
         if self.step is not None:
             distance, seconds = self.step
@@ -515,7 +517,7 @@ class LimitExcess(ShortRepr):
         )
 
     def to_json(self) -> dict[str, object]:
-        """Plain data."""
+        """Returns the excess over the limit as plain data."""
         return select_attributes(self, "joint what time value limit unit")
 
 

@@ -95,7 +95,7 @@ class InformationGain(ShortRepr):
         ]
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Returns what the log adds as plain data."""
         sigmas = zip(self.names, self.before, self.after, strict=True)
         first, then = (c if np.isfinite(c) else None for c in self.condition)
         return {
@@ -159,7 +159,7 @@ class ExcitingMotion(Result):
         return columns
 
     def format_lines(self) -> list[str]:
-        """Formats lines of text."""
+        """Formats the motion's quality and its use of the limits as lines of text."""
         best, median = self.random
         lines = [
             f"condition number {self.quality.condition:.4g} with columns of length one "
@@ -198,7 +198,7 @@ class ExcitingMotion(Result):
         return [*lines, *(self.gain.format_lines() if self.gain else [])]
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Returns the motion's quality and its use of the limits as plain data."""
         b, u = self.bounds, self.usage
         joints = {}
         for j, name in enumerate(b.joints):

@@ -175,7 +175,7 @@ class ExcitationTask:
     def shrink_to_limits(
         self, x: np.ndarray, checking_task: "ExcitationTask | None" = None
     ) -> np.ndarray:
-        """A motion; of one beyond limits.
+        """Returns the motion x; where it is beyond limits, a smaller one that keeps them.
 
         The largest found between `rest_motion` and it that keeps them.
 
@@ -265,7 +265,7 @@ Item = TypeVar("Item")
 
 @dataclass(frozen=True)
 class MotionRequest:
-    """What is asked for.
+    """What is asked for of an exciting motion.
 
     Attributes:
         duration: of the motion, s.
@@ -339,7 +339,7 @@ def design_motion(
 
 
 class Deadline:
-    """True as long as there is time."""
+    """A time limit; called, it is True as long as there is time."""
 
     def __init__(self, limit: float | None) -> None:
         self._begun, self._limit = time.monotonic(), math.inf if limit is None else limit
@@ -517,7 +517,7 @@ def compute_quality(task: ExcitationTask, x: np.ndarray) -> MotionQuality:
 
 
 def refine_task(task: ExcitationTask) -> ExcitationTask:
-    """Returns the same with ten times the samples, and nearly all of the limits."""
+    """Returns the task with ten times the samples, and nearly all of the limits."""
     series = task.series.refine_samples(THRESHOLDS.check_refinement)
     return dataclasses.replace(task, series=series, share=THRESHOLDS.checked_share)
 

@@ -266,11 +266,11 @@ class MotionSeries(ShortRepr):
         return self.values @ x.T, self.slopes @ x.T, self.bends @ x.T
 
     def resample_at(self, times: np.ndarray) -> "MotionSeries":
-        """Returns the same at other times, s."""
+        """Returns the series at other times, s."""
         return build_series(self.duration, self.harmonics, times, family=self.family)
 
     def refine_samples(self, times: int) -> "MotionSeries":
-        """Returns the same with so many times as many samples."""
+        """Returns the series with so many times as many samples."""
         count = times * len(self.time)
         return _sample_series(self.family, self.duration, self.harmonics, count)
 

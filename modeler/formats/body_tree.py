@@ -133,7 +133,7 @@ class Inertial:
     inertia: np.ndarray
 
     def express_in(self, pose: Pose) -> "Inertial":
-        """Returns the same in the frame a, in which the body's frame b has that pose."""
+        """Returns the inertial in the frame a, in which the body's frame b has that pose."""
         turn = pose.rotation
         return Inertial(self.mass, pose.transform_point(self.centre), turn @ self.inertia @ turn.T)
 

@@ -43,7 +43,7 @@ class Prior:
 
 @dataclass(frozen=True, eq=False)
 class CompletedParameters:
-    """Standard parameters.
+    """Standard parameters, completed from beta by what is known beforehand.
 
     Attributes:
         chi: (m,).
@@ -59,7 +59,7 @@ class CompletedParameters:
 
     @cached_property
     def covariance(self) -> np.ndarray:
-        """Returns (m, m)."""
+        """Returns the covariance (m, m) of the standard parameters."""
         return np.asarray(self.root @ self.root.T)
 
 

@@ -32,7 +32,7 @@ _TWELFTH = math.pi / 12
 
 @dataclass(frozen=True, eq=False)
 class MdhRow:
-    """A row.
+    """A row of a modified Denavit-Hartenberg table.
 
     Attributes:
         name, antecedent: of rows; "0" is the base.
@@ -54,7 +54,7 @@ class MdhRow:
 
 @dataclass(frozen=True, eq=False)
 class MdhTable:
-    """The rows of a tree.
+    """The rows of a modified Denavit-Hartenberg table of a tree.
 
     Attributes:
         rows: each after its antecedent.
@@ -123,7 +123,7 @@ class _Axis:
     through: np.ndarray | None
 
     def express_in(self, pose: Pose) -> "_Axis":
-        """Returns the same in the frame a, in which the frame b has that pose."""
+        """Returns the axis in the frame a, in which the frame b has that pose."""
         through = None if self.through is None else pose.transform_point(self.through)
         return _Axis(pose.rotation @ self.along, through)
 

@@ -310,7 +310,7 @@ class _ModelReader:
         self._actuated = self._find_driven_joints()
 
     def read_tree(self, name: str) -> BodyTree:
-        """Returns all of it."""
+        """Returns all of the compiled model as a tree of bodies."""
         model, hidden, unread = self._model, set[str](), dict[str, str]()
         for numbers in _NUMBERS.split():
             if not np.all(np.abs(getattr(model, numbers)) < THRESHOLDS.max_mjcf_number):

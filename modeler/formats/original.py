@@ -40,7 +40,7 @@ TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 @dataclass(frozen=True, eq=False)
 class OriginalFile:
-    """A file.
+    """A robot file of another program, as it is.
 
     Attributes:
         path: where it is.
@@ -99,7 +99,7 @@ def read_original(path: Path) -> OriginalFile:
 
 
 def find_first_child(element: Element, tag: str) -> Element | None:
-    """Returns its first child of that tag."""
+    """Returns the first child of an element with that tag, or None."""
     return next(iter(element.find_children(tag)), None)
 
 

@@ -70,7 +70,7 @@ class Counts:
 
 @dataclass
 class ParFrame:
-    """One frame.
+    """One frame of a .par file.
 
     Attributes:
         number: 1, 2, ...
@@ -244,7 +244,7 @@ class Symbols:
         return name
 
     def evaluate_symbol(self, name: str) -> float:
-        """Returns what it is worth."""
+        """Returns the value of a symbol."""
         value = self.values[name]
         if isinstance(value, float):
             return value
@@ -331,7 +331,7 @@ def replace_inverse_functions(
         return ast.Name(symbol, ast.Load())
 
     def replace_length(call: ast.expr) -> ast.expr:
-        """L for sqrt(x**2 + y**2)."""
+        """Returns the name L for a call that is sqrt(x**2 + y**2), else the call."""
         for pair, (name, _) in polar.items():
             one, other = sorted(pair)
             sums = (f"sqrt({one}**2 + {other}**2)", f"sqrt({other}**2 + {one}**2)")

@@ -33,7 +33,7 @@ _UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 @dataclass(frozen=True)
 class Statement:
-    """One statement.
+    """One statement of a .par file.
 
     Attributes:
         key: as `KEYS` spells it.
@@ -52,7 +52,7 @@ class Statement:
 
 @dataclass(frozen=True)
 class Statements:
-    """What a file says.
+    """All statements of a .par file, by key.
 
     Attributes:
         name: of the robot, as a comment of the file gives it; "" without one.
@@ -220,7 +220,7 @@ _PLAIN = re.compile(rf"[+-]?\s*{_NUMBER}")
 
 @dataclass(frozen=True)
 class ParFormula:
-    """A checked formula.
+    """A checked formula of a .par file.
 
     Attributes:
         tree: of Python's arithmetic; functions are those of robot files and `INVERSE`.

@@ -1,4 +1,4 @@
-"""What was written: every number as it was and is, and what the file cannot hold."""
+"""What an export wrote: every number before and after, and what the file cannot hold."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -208,9 +208,9 @@ def format_numbers(values: Iterable[float]) -> str:
 
 
 def keep_unchanged(now: np.ndarray, was: np.ndarray | None) -> np.ndarray:
-    """Returns (10,) a body as `compute_central_parameters`.
+    """Returns a body (10,) with the numbers that were there where these are the same.
 
-    With the numbers that were there where these " "are the same.
+    Both are as of `compute_central_parameters`.
     """
     if was is None:
         return now

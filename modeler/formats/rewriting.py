@@ -240,7 +240,7 @@ class _NumberEditor:
                 self.file.set_number(link, path, format_numbers(new[[k]]))
 
     def edit_joint(self, physics: ExportParameters, row: str, name: str) -> list[Value]:
-        """Puts what resists a joint."""
+        """Writes what resists a joint, and returns the values of it."""
         stated = self.joints.get(name)
         if stated is None:
             texts = {

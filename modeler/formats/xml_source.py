@@ -72,7 +72,7 @@ class Element:
     text_span: Span | None = None
 
     def find_children(self, *tags: str) -> "list[Element]":
-        """Returns its children of these tags."""
+        """Returns the children of the element with these tags."""
         return [child for child in self.children if child.tag in tags]
 
     def iterate_elements(self) -> "Iterator[Element]":
@@ -383,14 +383,14 @@ _DECIMAL = re.compile(r"[+-]?(?:\d+\.?(\d*)|\.(\d+))(?:[eE]([+-]?\d{1,4}))?", re
 
 
 class LocatedElement:
-    """An element, or one that is not given, and its place for messages."""
+    """An XML element, or one that is not given, and its place for messages."""
 
     def __init__(self, element: Element, where: str, spot: str, is_given: bool = True) -> None:
         self.element, self.is_given, self._where = element, is_given, where
         self.place = TomlCell(f"{where}: line {element.line}", spot)
 
     def find_child(self, tag: str) -> "LocatedElement":
-        """Returns its child of that tag, of which it may have one."""
+        """Returns the child of that tag, of which the element may have one."""
         children = self.element.find_children(tag)
         if len(children) > 1:
             self.place = TomlCell(f"{self._where}: line {children[1].line}", self.place.location)
@@ -401,7 +401,7 @@ class LocatedElement:
         return LocatedElement(inner, self._where, f"{self.place.location} <{tag}>", bool(children))
 
     def find_children(self, *tags: str) -> "list[LocatedElement]":
-        """Returns its children of these tags."""
+        """Returns the children of the element with these tags."""
         return [
             LocatedElement(
                 e,
@@ -441,7 +441,7 @@ class LocatedElement:
         )
 
     def require_child(self, tag: str, example: str) -> "LocatedElement":
-        """Returns its child of that tag, which it must have."""
+        """Returns the child of that tag, which the element must have."""
         if not (child := self.find_child(tag)).is_given:
             raise self.place.make_error(f"<{tag}> is missing; write <{tag} {example}/>")
         return child
@@ -464,7 +464,7 @@ class LocatedElement:
         return words
 
     def read_numbers(self, attribute: str, default: str, most: float = LARGEST) -> np.ndarray:
-        """Returns the same as numbers."""
+        """Returns the words of an attribute as numbers."""
         return np.array([float(word) for word in self.read_digits(attribute, default, most)])
 
     def read_optional_number(self, attribute: str) -> float | None:

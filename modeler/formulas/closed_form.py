@@ -279,7 +279,7 @@ class ClosedForm:
 
     @cached_property
     def by_name(self) -> Mapping[str, ConfigurationFunction]:
-        """Returns functions by name."""
+        """Returns the functions of the configuration by name."""
         return {function.name: function for function in self.functions}
 
     @property

@@ -403,7 +403,7 @@ class _CadProblem:
     def build_rows(
         self, covariance: np.ndarray, depends: Mapping[str, tuple[str, ...]]
     ) -> list[CadRow]:
-        """The table, most significant first."""
+        """Builds the rows of the table, most significant first."""
         z, bound = self.compute_z(self.start), compute_z_limit(len(self.compared))
         rows = []
         for k, i in enumerate(self.compared):
@@ -417,29 +417,29 @@ class _CadProblem:
         return sorted(rows, key=lambda row: -abs(row.z))
 
     def evaluate_quantities(self, point: np.ndarray) -> np.ndarray:
-        """Quantities from parameters."""
+        """Evaluates the compared quantities at a point of the parameters."""
         return np.array([poly.evaluate(point) for poly in self.polys])
 
     def evaluate_jacobian(self, point: np.ndarray) -> np.ndarray:
-        """(quantities, generators)."""
+        """Evaluates the Jacobian (quantities, generators) at a point of the parameters."""
         return np.array([poly.evaluate_slopes(point) for poly in self.polys]).reshape(
             -1, len(point)
         )
 
     def compute_z(self, point: np.ndarray) -> np.ndarray:
-        """Differences by their standard deviations."""
+        """Computes the differences of data and quantities by their standard deviations."""
         difference = self.data - self.evaluate_quantities(point)
         return np.array(
             [_standardise_difference(a, b) for a, b in zip(difference, self.sigma, strict=True)]
         )
 
     def compute_chi_squared(self, point: np.ndarray) -> float:
-        """Weighted sum of squares, correlations counted."""
+        """Computes the weighted sum of squares of the differences, correlations counted."""
         r = self.weight @ (self.data - self.evaluate_quantities(point))
         return float(r @ r)
 
     def select_promising_groups(self, letters: Sequence[str], size: int) -> list[tuple[str, ...]]:
-        """Groups of that size that explain most to first order; all, if they are few."""
+        """Selects groups of that size that explain most to first order; all, if they are few."""
         groups = list(combinations(letters, size))
         if len(groups) <= THRESHOLDS.fitted_groups:
             return groups
@@ -453,7 +453,7 @@ class _CadProblem:
         return [group for _, group in sorted(left)[: THRESHOLDS.fitted_groups]]
 
     def fit_letters(self, letters: Sequence[str]) -> np.ndarray:
-        """The point with those letters changed for the least sum of squares (Gauss-Newton)."""
+        """Returns the point, those letters changed for least squares (Gauss-Newton)."""
         at = [self.system.place[x] for x in letters]
         point = self.start.copy()
         best = self.compute_chi_squared(point)

@@ -72,7 +72,7 @@ Matrix = Mapping[tuple[str, str], Expr]
 
 @dataclass(frozen=True, eq=False)
 class LegBlock:
-    """One block.
+    """One matrix block in the paper's equations of a robot with legs.
 
     Attributes:
         name: "J1inv", "Jpinv", "Jp", "WP", "Dm1" or "DL1": the paper's, in letters of a program.

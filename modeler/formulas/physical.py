@@ -102,7 +102,7 @@ def derive_physical_parameters(model: SymbolicModel, algebra: TrigRing) -> Physi
     values = get_generators(ring) | dict.fromkeys(zeros, ring.zero)
 
     def read_entry(entry: Expression, joint: str) -> Poly:
-        """An entry of `[physical]` as a polynomial."""
+        """Returns an entry of `[physical]` as a polynomial."""
         polynomial = None if entry.names & derived else convert_to_polynomial(entry, values, ring)
         if polynomial is None:
             raise RobotError(

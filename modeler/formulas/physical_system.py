@@ -266,7 +266,7 @@ class _KnownGeometry:
     values: dict[str, float] = field(default_factory=dict)
 
     def convert_coefficient(self, value: sympy.Expr) -> tuple[Poly, tuple[str, ...]]:
-        """(polynomial of the geometry, names of further factors).
+        """Returns (polynomial of the geometry, names of further factors) of a coefficient.
 
         A quotient of lengths is a polynomial times the inverse of each factor below, so that
         quotients that depend on each other are told from those that do not.

@@ -99,7 +99,7 @@ class SolutionCheck:
 
 @dataclass(frozen=True)
 class TwinCheck:
-    """Two sets of physical parameters.
+    """A comparison of the coefficients of two sets of physical parameters.
 
     Attributes:
         equal: number of coefficients that are exactly equal.

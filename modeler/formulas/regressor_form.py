@@ -267,7 +267,7 @@ _AXES = "xyz"
 
 @dataclass(frozen=True, eq=False)
 class Equation:
-    """Formulas, and what they are.
+    """Formulas, and the equation in which they stand.
 
     Attributes:
         words: sentences: the equation in which they stand.

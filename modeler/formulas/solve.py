@@ -150,7 +150,7 @@ class _Elimination:
         self.open, self.wanted = set(unknown), set(follow)
 
     def run(self) -> list[SolvingStep]:
-        """The steps, in order."""
+        """Runs the elimination, and returns its steps in order."""
         steps: list[SolvingStep] = []
         while self.wanted:
             step = self._solve_directly(self.wanted) or self._solve_from_several()

@@ -251,7 +251,7 @@ class _SetCounter:
         self.parts = find_components(self.kernel)
 
     def count_sets(self) -> dict[tuple[int, int, int], list[int]]:
-        """Counts of sets of the wanted size, and of those with each letter."""
+        """Counts the sets of the wanted size, and those with each letter, by class."""
         spare = self.size - len(self.kernel)
         n = len(self.system.letters)
         total: dict[int, Table] = {0: {(0, 0, 0): np.array([1] + [0] * n, dtype=object)}}

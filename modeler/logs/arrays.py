@@ -370,7 +370,7 @@ def read_hdf5(path: Path, wanted: ColumnRequest) -> Columns:
 
 
 def read_mat73(path: Path, wanted: ColumnRequest) -> Columns:
-    """Returns the same of a MAT file of version 7.3: fields of structs as `data.q[1]`."""
+    """Returns the columns of a MAT file of version 7.3: fields of structs as `data.q[1]`."""
     what, arrays, opaque = "MAT 7.3 file", list[NamedArray](), list[str]()
     with wrap_read_errors(path, what):
         for one in _list_datasets(path, "a MAT file of version 7.3"):

@@ -227,7 +227,7 @@ class _TextFile:
         self.names = self.dialect.head.names
 
     def parse_columns(self, text: bytes, wanted: Sequence[str] = (), before: int = 0) -> Columns:
-        """Those of whole lines, `before` rows after the first; an error of a row names its place.
+        """Parses whole lines, `before` rows after the first; an error of a row names its place.
 
         Raises:
             ArrowInvalid: a row has more or fewer entries.
@@ -494,7 +494,7 @@ def open_blocks(path: Path) -> Blocks | None:
 
 
 def read_windows(blocks: Blocks, count: int, size: int) -> Columns:
-    """Windows spread over a file, one after the other; columns that hold numbers in all of them."""
+    """Reads windows spread over a file, one after the other; columns of numbers in all of them."""
     windows = [dict(blocks.read_window((k + 0.5) / count, size).columns) for k in range(count)]
     values = tuple(
         (name, ColumnValues(np.concatenate([window[name].read_numbers() for window in windows])))

@@ -63,7 +63,7 @@ class Stream:
 
 @dataclass(frozen=True)
 class Columns:
-    """What a file holds.
+    """The columns that a file holds.
 
     Attributes:
         columns: (name, column), in the order of the file; a name may stand twice.

@@ -110,7 +110,7 @@ def _count_entries(column: pa.ChunkedArray) -> int:
 def join_episodes(
     table: pa.Table, dataset: Dataset | None, first: int
 ) -> tuple[pa.Table, tuple[str, ...]]:
-    """Episodes one after the other: the frame over fps as `timestamp`, the episode as `segment`.
+    """Joins episodes: the frame over fps becomes `timestamp`, the episode `segment`.
 
     Args:
         table: of some rows.

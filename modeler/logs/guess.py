@@ -78,11 +78,11 @@ class Guess:
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """Returns names in the file."""
+        """Returns the names of the columns in the file."""
         return tuple(self.others.get(x) or self.template.replace("{}", x) for x in self.labels)
 
     def drop_range_units(self) -> "Guess":
-        """Returns the same, without units that rest on a range."""
+        """Returns the guess, without units that rest on a range."""
         if self.why != "by its range":
             return self
         return dataclasses.replace(self, units=("",) * len(self.labels), why="")
@@ -417,7 +417,7 @@ _MISSING = {"q": "positions", "tau": "torques"}
 
 
 def find_absent_roles(guesses: Sequence[Guess]) -> list[str]:
-    """Quantities that every fit needs and that no column looks like."""
+    """Returns a line on the quantities that every fit needs and that no column looks like."""
     there = {"tau" if one.quantity in ("current", "duty") else one.quantity for one in guesses}
     lacking = [words for quantity, words in _MISSING.items() if quantity not in there]
     if not lacking:

@@ -587,7 +587,7 @@ class Mark:
 
 
 def find_marks(seen: LogInspection) -> list[Mark]:
-    """Gaps and faults of the clock, missing values, ends of a range at which a channel stays.
+    """Finds gaps and faults of the clock, missing values, range ends at which a channel stays.
 
     Of a long log, of which not all rows are kept, the clock alone.
     """

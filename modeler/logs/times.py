@@ -52,7 +52,7 @@ class JoinedStamp(Column):
 
 
 def find_stamp_pairs(names: Iterable[str]) -> dict[str, tuple[str, str, float]]:
-    """Names of the time -> columns of its seconds and their parts, and the unit of these, s.
+    """Finds {time: (column of its seconds, column of their parts, unit of these in s)}.
 
     >>> stamp_pairs(["header.stamp.sec", "header.stamp.nanosec", "q1"])
     {'header.stamp': ('header.stamp.sec', 'header.stamp.nanosec', 1e-09)}
@@ -74,7 +74,7 @@ def find_stamp_pairs(names: Iterable[str]) -> dict[str, tuple[str, str, float]]:
 def join_stamps(
     columns: Sequence[tuple[str, Column]],
 ) -> tuple[tuple[tuple[str, Column], ...], dict[str, str], tuple[str, ...]]:
-    """Columns, and before two of a time the time that they are; its unit, what is told of it."""
+    """Returns the columns, a time before the two that make it; its unit, what is told of it."""
     by_name, notes = dict(columns), list[str]()
     made: dict[str, tuple[str, JoinedStamp]] = {}
     for name, (seconds, fraction, unit) in find_stamp_pairs(by_name).items():
@@ -163,7 +163,7 @@ def is_clock(text: str) -> bool:
 
 
 def parse_moment(text: str) -> int:
-    """Nanoseconds of one text, since 1970 or of a day."""
+    """Returns the nanoseconds of one text, since 1970 or of a day."""
     return int(_parse_nanoseconds(pa.chunked_array([[text]]), 0)[0][0])
 
 

@@ -1,4 +1,4 @@
-"""Ranks, triangles and weighted medians: what every least squares here is made of."""
+"""Linear least squares: ranks, triangles, whitening; minimisation by BFGS and CMA-ES."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -254,7 +254,7 @@ class ReducedRows(ShortRepr):
 
 @dataclass(frozen=True, eq=False)
 class Reduction(ShortRepr):
-    """What takes rows to few, by joint: [W y] = Q R.
+    """The factors that reduce rows to few, by joint: [W y] = Q R.
 
     Attributes:
         Q: (rows_j, few) orthonormal.

@@ -1,4 +1,4 @@
-"""What stands alone in a channel, what a residual remembers, and the step of its resolution."""
+"""Noise, outliers, frozen, repeated, clipped and held values of a sampled channel."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -163,7 +163,7 @@ def estimate_coherence(x: np.ndarray, y: np.ndarray, frequency: float) -> float:
 
 @dataclass(frozen=True, eq=False)
 class OrderSpectrum(ShortRepr):
-    """Of one joint.
+    """The spectrum of one joint's residual over waves of its position.
 
     Attributes:
         order: (m,) waves per 2 pi of position: rad, or m.
@@ -301,7 +301,7 @@ def _compute_self_similarity(x: np.ndarray, lags: int) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class MotionSpectrum:
-    """Of positions; n frequencies, J joints.
+    """The spectrum of positions; n frequencies, J joints.
 
     Attributes:
         frequency: (n,) Hz, from 0 on.

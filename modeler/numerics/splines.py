@@ -22,7 +22,7 @@ _RIDGES = (0.1, 2.0)  # times the number of columns: noise over signal, variance
 
 @dataclass(frozen=True, eq=False)
 class NonparametricBaseline:
-    """What the rival says of one joint.
+    """What a fit without physics predicts of the residual of one joint.
 
     Attributes:
         prediction: (n,) of the residual, N m or N; each row by fits to other stretches of time.

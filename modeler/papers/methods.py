@@ -36,7 +36,7 @@ class Outcome(enum.Enum):
 
 @dataclass(frozen=True)
 class MethodRow:
-    """One line.
+    """One line of a table that compares a paper's results with ours.
 
     Attributes:
         what: parameter or figure.
@@ -59,7 +59,7 @@ class MethodRow:
 
 @dataclass(frozen=True)
 class MethodTable:
-    """One table.
+    """One table that compares a paper's results with ours.
 
     Attributes:
         title: what it is.

@@ -98,7 +98,7 @@ class PrintedLine:
 
     @property
     def text(self) -> str:
-        """Returns what is stated."""
+        """Returns what is stated: the paper's own words, or else ours."""
         return self.quote or self.ours
 
 

@@ -24,7 +24,7 @@ class QuotationError(ValueError):
 
 @dataclass(frozen=True)
 class Amount:
-    """A coefficient.
+    """A coefficient as a paper prints it, with its rounding.
 
     Attributes:
         value: as printed.

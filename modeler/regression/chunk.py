@@ -44,7 +44,7 @@ class Chunk:
 
     @property
     def span(self) -> tuple[float, float]:
-        """s, between its own rows and those beside them; open at the log's ends.
+        """Returns the times, s, midway between its rows and those beside them; open at a log's end.
 
         In the middle of two rows, as samples of a uniform grid lie on rows but for rounding.
         """
@@ -59,7 +59,7 @@ class Chunk:
 
     @property
     def rows(self) -> int:
-        """Of its own."""
+        """Returns the number of the chunk's own rows, margins left out."""
         return self.inner_rows.stop - self.inner_rows.start
 
     def is_inside(self, time: np.ndarray) -> np.ndarray:

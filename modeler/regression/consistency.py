@@ -37,7 +37,7 @@ class DerivativeWindows:
 
     @property
     def error(self) -> np.ndarray:
-        """Logged less quotient."""
+        """Returns the logged derivative less the difference quotient, by window and joint."""
         return self.logged - self.quotient
 
 
@@ -261,12 +261,12 @@ class DerivativeCheck:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """The delays, one sentence each."""
+        """Returns the delays that were found, one sentence each."""
         return tuple(late.describe(self.used) for late in self.delays)
 
     @property
     def is_harmful(self) -> bool:
-        """True if a delay is large enough to spoil what is made of the column."""
+        """Returns True if a delay is large enough to spoil what is made of the column."""
         return any(late.share > THRESHOLDS.max_delay_share for late in self.delays)
 
 

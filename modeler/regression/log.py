@@ -23,15 +23,15 @@ class LogRows(Protocol):
 
     @property
     def name(self) -> str:
-        """Of the file."""
+        """Returns the name of the file."""
 
     @property
     def content(self) -> str:
-        """Fingerprint of the whole file; "" if there is none."""
+        """Returns a fingerprint of the whole file; "" if there is none."""
 
     @property
     def span(self) -> tuple[float, float]:
-        """First and last time, s."""
+        """Returns the first and the last time, s."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,17 +83,17 @@ class Log(Result):
 
     @property
     def rows(self) -> int:
-        """Number of rows, n."""
+        """Returns the number of rows, n."""
         return len(self.time)
 
     @property
     def span(self) -> tuple[float, float]:
-        """First and last time, s."""
+        """Returns the first and the last time, s."""
         return float(self.time[0]), float(self.time[-1])
 
     @property
     def missing(self) -> dict[str, int]:
-        """Column -> rows without a value; only columns that have any."""
+        """Returns {column: number of rows without a value}; only columns that have any."""
         kinds = {"q": self.q, "qd": self.qd, "qdd": self.qdd, "qc": self.commanded}
         missing_rows = {
             f"{prefix}{name}": int(np.isnan(values[:, j]).sum())
@@ -108,14 +108,14 @@ class Log(Result):
 
     @property
     def piece_number(self) -> np.ndarray:
-        """(n,) whole numbers from 0 that grow where a piece of motion begins."""
+        """Returns (n,) whole numbers from 0 that grow where a piece of motion begins."""
         if self.segment is None:
             return np.zeros(self.rows, dtype=int)
         return np.concatenate([[0], np.cumsum(np.diff(self.segment) != 0)])
 
     @property
     def step(self) -> float:
-        """Median time step, s.
+        """Returns the median time step, s.
 
         Large times are coarse: seconds since 1970 come in steps of 2.4e-7 s. Where the median is
         such a step, it is the mean of those that differ from it by no more than that.
@@ -131,7 +131,7 @@ class Log(Result):
 
     @property
     def gap(self) -> float:
-        """s; a longer step ends a piece of motion."""
+        """Returns the length, s, of a time step beyond which a piece of motion ends."""
         return max(THRESHOLDS.gap_steps * self.step, *(self.robot_steps or (0.0,)))
 
 

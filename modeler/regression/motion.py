@@ -88,7 +88,7 @@ class Processing(ShortRepr):
             )
 
     def repairs_of(self, log: str) -> dict[str, float]:
-        """Returns those of a log, by column and kind of the defect; a held channel is in all."""
+        """Returns a log's repairs, by column and kind of the defect; a held channel is in all."""
         return {
             key.rpartition(": ")[2]: score
             for key, score in (self.repairs or {}).items()
@@ -96,7 +96,7 @@ class Processing(ShortRepr):
         }
 
     def to_json(self) -> dict[str, Any]:
-        """Returns plain data for a model file."""
+        """Returns the processing as plain data for a model file."""
         raw = dataclasses.asdict(self)
         if self.speed_floors is not None:  # JSON has no infinity: null is a shaft that stood still
             raw["speed_floors"] = {
@@ -195,12 +195,12 @@ class Segment(ShortRepr):
 
     @property
     def samples(self) -> int:
-        """Number of samples, n."""
+        """Returns the number of samples, n."""
         return len(self.time)
 
     @property
     def logged_step(self) -> float:
-        """Between samples of the log, s."""
+        """Returns the time, s, between samples of the log."""
         return self.step / self.every
 
     def thin_samples(self, every: int, read: np.ndarray | None) -> "Segment":
@@ -219,7 +219,7 @@ class Segment(ShortRepr):
 
     @cached_property
     def valid(self) -> np.ndarray:
-        """(n, joints) True where the torque is a measurement that counts."""
+        """Returns (n, joints) flags, True where the torque is a measurement that counts."""
         return np.asarray(self.cause < 0)
 
 

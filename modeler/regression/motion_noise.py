@@ -67,18 +67,18 @@ class ChannelNoise(ShortRepr):
 
     @property
     def order(self) -> int:
-        """Derivatives from what is measured to the acceleration."""
+        """Returns how many derivatives lead from what is measured to the acceleration."""
         return MEASURED.index(self.of)
 
     @property
     def cutoff(self) -> float:
-        """Hz up to which what is measured says more of the motion than of its sensor."""
+        """Returns the Hz up to which the measured says more of the motion than of its sensor."""
         least = THRESHOLDS.min_position_bands * self.band_hz
         return float(np.clip(self.hides_above_hz or np.inf, least, THRESHOLDS.max_position_cutoff))
 
     @property
     def is_exact(self) -> bool:
-        """True if no sensor has so little noise."""
+        """Returns True if the noise is smaller than that of any sensor."""
         size = self.deviation / max(2.0 * np.pi * self.band_hz, 1.0) ** (2 - self.order)
         return size < THRESHOLDS.exact_noise and self.step < THRESHOLDS.exact_noise
 
@@ -93,11 +93,11 @@ class ChannelNoise(ShortRepr):
         return float(np.sqrt(self.density * factor * cutoff**power))
 
     def compute_acceleration_density(self, frequency: float) -> float:
-        """Returns its noise as that of the acceleration: (2 pi f)^(2 order) N, (unit/s^2)^2/Hz."""
+        """Returns the noise as the acceleration's: (2 pi f)^(2 order) N, (unit/s^2)^2/Hz."""
         return float(self.density * (2.0 * np.pi * frequency) ** (2 * self.order))
 
     def format_words(self) -> str:
-        """Returns its noise in words."""
+        """Returns the noise of the joint in words."""
         size, unit = self.scale_to_milli(self.deviation)
         coloured = f", growing as f^-{self.colour:.1f}" if self.colour else ""
         above = self.hides_above_hz or np.inf
@@ -112,7 +112,7 @@ class ChannelNoise(ShortRepr):
 
 @dataclass(frozen=True)
 class MotionNoise(ShortRepr):
-    """Of all joints.
+    """Noise of the measured motion of all joints.
 
     Attributes:
         joints: in the order of the manifest.
@@ -126,29 +126,29 @@ class MotionNoise(ShortRepr):
 
     @property
     def moving(self) -> tuple[ChannelNoise, ...]:
-        """The joints that move."""
+        """Returns the noise of the joints that move."""
         return tuple(joint for joint in self.joints if joint.moves)
 
     @property
     def band(self) -> float:
-        """Hz of the motion of the fastest joint."""
+        """Returns the band, Hz, of the motion of the fastest joint."""
         return max((joint.band_hz for joint in self.moving), default=0.0)
 
     @property
     def cutoff(self) -> float:
-        """Hz of the position filter that the noise asks for: the geometric mean of the joints'."""
+        """Returns the cut-off, Hz, of the position filter: the geometric mean of the joints'."""
         least = THRESHOLDS.min_position_bands * self.band
         every = [max(joint.cutoff, least) for joint in self.moving]
         return float(np.exp(np.mean(np.log(every)))) if every else THRESHOLDS.max_position_cutoff
 
     @property
     def order(self) -> int:
-        """Derivatives from what is measured to the acceleration."""
+        """Returns how many derivatives lead from what is measured to the acceleration."""
         return self.joints[0].order
 
     @property
     def quantity(self) -> str:
-        """What is measured, in words."""
+        """Returns the name of what is measured, in words."""
         return f"{'logged ' if self.order < 2 else ''}{MEASURED[self.order]}"
 
     def take_last_floors(

@@ -91,37 +91,37 @@ class Observation(Result):
 
     @cached_property
     def columns(self) -> np.ndarray:
-        """(s, n, c) filtered regressor: torque = columns beta + residual."""
+        """Returns the filtered regressor (s, n, c): torque = columns beta + residual."""
         return self.filter_columns(self.regressor)
 
     @cached_property
     def W(self) -> np.ndarray:
-        """(rows, c) observation matrix, joint after joint within each sample."""
+        """Returns the observation matrix (rows, c), joint after joint within each sample."""
         return self.columns[self.used]
 
     @cached_property
     def y(self) -> np.ndarray:
-        """(rows,) torques, N m or N."""
+        """Returns the torques (rows,), N m or N."""
         return self.torque[self.used]
 
     @cached_property
     def row_sample(self) -> np.ndarray:
-        """(rows,) sample of each row."""
+        """Returns the index (rows,) of the sample of each row."""
         return np.nonzero(self.used)[0]
 
     @cached_property
     def row_joint(self) -> np.ndarray:
-        """(rows,) index of the joint of each row."""
+        """Returns the index (rows,) of the joint of each row."""
         return np.nonzero(self.used)[1]
 
     @cached_property
     def row_run(self) -> np.ndarray:
-        """(rows,) index of the log of each row."""
+        """Returns the index (rows,) of the log of each row."""
         return self.run[self.row_sample]
 
     @cached_property
     def driven(self) -> list[int]:
-        """Indices of the joints with a motor, rows and a torque."""
+        """Returns the indices of the joints with a motor, rows and a torque."""
         return [
             j
             for j, joint in enumerate(self.joints)
@@ -130,7 +130,7 @@ class Observation(Result):
 
     @cached_property
     def whole(self) -> np.ndarray:
-        """(s, n) rows that count, and whose weights lie on usable samples all but wholly.
+        """Returns (s, n) flags of rows that count, with weights all but wholly on usable samples.
 
         A row at the edge of a masked reversal is the mean of few samples, and what the filter makes
         of the sign of a speed there looks like physics.
@@ -176,7 +176,7 @@ class ModelRegressor:
 
     @property
     def pattern(self) -> NonzeroPattern:
-        """Which columns can enter the torque of each joint."""
+        """Returns which columns can enter the torque of each joint."""
         return self._model.pattern
 
     def compute_torque(

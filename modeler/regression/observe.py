@@ -334,7 +334,7 @@ class CutoffSearch(ShortRepr):
 
     @cached_property
     def narrowest_fit(self) -> tuple[float, np.ndarray | None]:
-        """The lowest parallel cut-off that leaves rows enough, Hz, and beta (c,) of its fit."""
+        """Returns the lowest parallel cut-off, Hz, with rows enough, and beta (c,) of its fit."""
         noise, widest = self.prepared.noise, self.prepared.processing
         highest, position = widest.parallel_cutoff, min(noise.cutoff, widest.position_cutoff)
         least = max(THRESHOLDS.min_parallel_bands * noise.band, THRESHOLDS.min_parallel_cutoff)
@@ -476,7 +476,7 @@ class WeightedFit(ShortRepr):
 
     @cached_property
     def solution(self) -> tuple[np.ndarray, dict[int, float]]:
-        """beta (c,), and the rms residual of each joint that is driven."""
+        """Returns beta (c,), and the rms residual of each joint that is driven."""
         rows = self.rows
         W = {j: rows.columns[rows.used[:, j], j] for j in rows.driven}
         y = {j: rows.torque[rows.used[:, j], j] for j in rows.driven}
@@ -496,7 +496,7 @@ class WeightedFit(ShortRepr):
 
     @property
     def is_determined(self) -> bool:
-        """True if there are rows enough for the residual to be one."""
+        """Returns True if there are rows enough for the residual to mean something."""
         count = self.rows.used[:, self.rows.driven].sum()
         return bool(count >= THRESHOLDS.min_rows_per_parameter * len(self.rows.names))
 
@@ -590,7 +590,7 @@ class NoiseCrossover(ShortRepr):
     is_bounded: bool = False
 
     def explain_cutoff(self, noise: MotionNoise) -> str:
-        """Returns why it is there."""
+        """Returns why the cut-off is where it is, in words."""
         if self.joint is None:
             why = "the widest that the motion needs; up to there the torque noise is larger"
         elif self.is_drive_limited:

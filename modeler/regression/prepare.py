@@ -96,12 +96,12 @@ class PreparedLogs(ShortRepr):
 
     @property
     def pieces(self) -> tuple[RawSegment, ...]:
-        """Of all logs."""
+        """Returns the pieces of all logs."""
         return tuple(piece for log in self.logs for piece in log.pieces)
 
     @cached_property
     def segments(self) -> tuple[Segment, ...]:
-        """Of all logs: their pieces, filtered and differentiated, but for those that are all edge.
+        """Returns the pieces of all logs, filtered and differentiated, but for those all edge.
 
         Raises:
             DataError: all of them are.
@@ -195,22 +195,22 @@ class CutLogs(ShortRepr):
 
     @cached_property
     def pieces(self) -> list[RawSegment]:
-        """Of all logs."""
+        """Returns the pieces of all logs."""
         return [piece for log_pieces, _ in self.cut for piece in log_pieces]
 
     @cached_property
     def spectra(self) -> list[MotionSpectrum]:
-        """Of the positions of each piece."""
+        """Returns the spectra of the positions of each piece."""
         return compute_spectra(self.pieces)
 
     @cached_property
     def bands(self) -> np.ndarray:
-        """(J,) `estimate_joint_bands`."""
+        """Returns the bands (J,) of the joints' motion, as `estimate_joint_bands` has them."""
         return estimate_joint_bands(self.pieces, self.spectra)
 
     @cached_property
     def noise(self) -> MotionNoise:
-        """Of the positions."""
+        """Returns the noise of the positions."""
         pieces = [drop_speeds(piece) for piece in self.pieces]
         return estimate_motion_noise(self.spec.joints, pieces, self.bands)
 

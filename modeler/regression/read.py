@@ -75,7 +75,7 @@ def read_log_in_memory(
 def build_table(
     data: InMemory, joints: Sequence[JointSpec], mapping: LogMap | None, where: str
 ) -> LogTable:
-    """Returns its columns under our names."""
+    """Returns the columns of data in memory under our names, as the table of a log."""
     columns = build_frame_columns(data, where, joints)
     return LogTable(Path(where), mapping, joints, part=columns, whole=True)
 
@@ -374,7 +374,7 @@ class ChannelRanges:
 
     @property
     def torques(self) -> tuple[tuple[float, float], ...]:
-        """(J,) smallest and largest torque."""
+        """Returns the smallest and the largest torque of each joint, (J,)."""
         return tuple(zip(self.low[1].tolist(), self.high[1].tolist(), strict=True))
 
     def merged_with(self, other: "ChannelRanges") -> "ChannelRanges":

@@ -318,7 +318,7 @@ def join_lines(damages: Sequence[Damage]) -> list[str]:
 
 @dataclass(frozen=True)
 class JointReport(ShortRepr):
-    """Rows of one joint.
+    """The rows of one joint: how many are used, and why others are not.
 
     Attributes:
         name: joint.
@@ -372,7 +372,7 @@ class JointReport(ShortRepr):
 
 @dataclass(frozen=True)
 class DataReport(Result):
-    """All of it.
+    """All that is told of the data: logs, joints, noise, and every choice.
 
     Attributes:
         processing: with every automatic choice filled in.
@@ -394,7 +394,7 @@ class DataReport(Result):
 
     @property
     def bands(self) -> Bands:
-        """The cut-offs and the noise of the motion as plain data."""
+        """Returns the cut-offs and the noise of the motion as plain data."""
         return self.lowered or build_bands(self.noise, self.processing)
 
     def collect_warnings(self) -> list[str]:
@@ -471,7 +471,7 @@ def count_rows(
     stretches: Sequence[FilteredSegment],
     check: DerivativeCheck | None,
 ) -> Tally:
-    """Counts of a chunk's own rows.
+    """Counts the chunk's own rows, by what became of them.
 
     Args:
         chunk: of the log.
@@ -524,7 +524,7 @@ def count_rows(
 
 @dataclass(frozen=True, eq=False)
 class LogFacts:
-    """Of some consecutive rows of a log; J joints.
+    """What was found in some consecutive rows of a log; J joints.
 
     Attributes:
         tally: counts.

@@ -1,4 +1,4 @@
-"""Shafts with dry friction that all but stand still; inner states of bristles; signals."""
+"""Segments of filtered motion: slow samples of dry friction, bristle states, signals."""
 
 import dataclasses
 import math
@@ -384,7 +384,7 @@ class FilteredSegment(ShortRepr):
 
     @property
     def decimation(self) -> int:
-        """Samples from one row to the next; 1 where there are no two."""
+        """Returns the number of samples from one row to the next; 1 where there are no two."""
         centres = self.rows.centres
         return int(centres[1] - centres[0]) if len(centres) > 1 else 1
 
@@ -430,7 +430,7 @@ class FilteredSegment(ShortRepr):
     def iterate_parts(
         self, samples: int = THRESHOLDS.filter_block_samples
     ) -> Iterator[tuple[RowFilter, slice, slice]]:
-        """Filters of a few rows each, the samples that they reach, and which rows they are."""
+        """Yields filters of a few rows each, the samples they reach, and which rows they are."""
         total, count = len(self.rows.centres), max(1, samples // self.decimation)
         for first in range(0, total, count):
             rows = slice(first, min(first + count, total))

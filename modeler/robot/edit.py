@@ -1,4 +1,4 @@
-"""Changing the effects of a robot file, and nothing else in it."""
+"""Edits of a robot file: effects, parameters, limits, home, and nothing else in it."""
 
 import json
 import math
@@ -239,7 +239,7 @@ def replace_effects(text: str, effects: Effects) -> str:
         return _has_owner(parameter, effects, catalogue, motors)
 
     def strip_effects(document: dict[str, Any] | None) -> dict[str, Any] | None:
-        """What it says but for its effects and the values of effects that are gone."""
+        """Returns the document without its effects and the values of effects that are gone."""
         if document is None:
             return None
         values = {n: v for n, v in document.get("parameters", {}).items() if is_retained(n)}
@@ -470,7 +470,7 @@ def _generate_home_edits(
     names = {i: lines[i].split("#")[0].strip(" []\t\"'") for i in heads}
 
     def find_table_span(name: str) -> tuple[int, int] | None:
-        """Where the first table of that name begins, and where the next does."""
+        """Returns where the first table of that name begins and where the next does, or None."""
         begin = next((i for i in heads if names[i] == name), None)
         if begin is None:
             return None

@@ -20,7 +20,7 @@ from modeler.effects import CATALOGUE, Effect, EffectColumn, Form, find_effect
 
 
 class JointKind(enum.IntEnum):
-    """sigma of the table."""
+    """The kind of a joint, which is sigma of the table."""
 
     REVOLUTE = 0
     PRISMATIC = 1
@@ -376,7 +376,7 @@ class Robot(Result):
         return self.links.get(name, INERTIAL)
 
     def get_joint(self, name: str) -> Joint:
-        """Returns row of that name."""
+        """Returns the joint in the row of that name."""
         return next(joint for joint in self.joints if joint.name == name)
 
     def find_joint_effects(self, joint: str) -> list[tuple[Effect, Form, EffectInstance]]:

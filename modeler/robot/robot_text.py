@@ -162,7 +162,7 @@ def format_loops(loops: Sequence[tuple[str, str, str, str]]) -> list[str]:
 
 
 def format_name_list(names: Sequence[str]) -> str:
-    """Returns `["1", "2"]`."""
+    """Returns a TOML list of names, such as `["1", "2"]`."""
     return "[" + ", ".join(f'"{name}"' for name in names) + "]"
 
 

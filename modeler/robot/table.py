@@ -248,7 +248,7 @@ class WrittenCell(NamedTuple):
 
     @property
     def expression(self) -> Expression:
-        """Returns what stands there."""
+        """Returns the expression that stands in the cell."""
         return parse_expression(0) if self.joint is None else getattr(self.joint, self.column)
 
 

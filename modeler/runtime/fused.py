@@ -124,7 +124,7 @@ def reduce_samples(
     state: Triangles | None = None,
     level: int = 0,
 ) -> Triangles:
-    """Triangles of samples whose entries a compiled function evaluates, sample by sample.
+    """Reduces samples to triangles; a compiled function evaluates entries sample by sample.
 
     Args:
         pattern: of the entries, whose order is joint after joint.
@@ -153,7 +153,7 @@ def reduce_dense_samples(
     samples: SampleArrays,
     state: Triangles | None = None,
 ) -> Triangles:
-    """Triangles of samples whose whole regressor is evaluated, some at a time.
+    """Reduces samples to triangles; the whole regressor is evaluated, some samples at a time.
 
     Args:
         pattern: of the entries.
@@ -188,7 +188,7 @@ def reduce_rows(
     state: Triangles | None = None,
     level: int = 0,
 ) -> Triangles:
-    """Triangles of rows that stand in memory.
+    """Reduces rows that stand in memory to triangles.
 
     Args:
         pattern: which columns to use.
@@ -426,7 +426,7 @@ class BatchEvaluator:
         function = self._functions["base_regressor"]
 
         def evaluate_block(block: slice) -> tuple[np.ndarray, np.ndarray]:
-            """The base regressor of a block, and where it has no value: loops may not close."""
+            """Returns a block's base regressor, and where it has no value: loops may not close."""
             part = samples.select_block(block)
             out = np.zeros((len(part.q), *function.outputs[0].shape))
             status = np.zeros(len(out), dtype=np.intc)

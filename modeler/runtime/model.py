@@ -102,7 +102,7 @@ class CompiledModel(BatchEvaluator, Result):
         *,
         order: Literal["C", "F"] = "C",
     ) -> np.ndarray:
-        """Returns w, (n*joints, c).
+        """Returns the observation matrix W, (n*joints, c).
 
         Y = W beta with y = tau.reshape(-1), joint after joint in each sample.
 
@@ -138,7 +138,7 @@ class CompiledModel(BatchEvaluator, Result):
         return self._evaluate_function("inertia_matrix", {"q": q}, beta)
 
     def gravity(self, q: Any, beta: Any) -> np.ndarray:
-        """Returns g(q), (n, joints)."""
+        """Returns the torques of gravity g(q), (n, joints)."""
         return self._evaluate_function("gravity", {"q": q}, beta)
 
     def coriolis(self, q: Any, qd: Any, beta: Any) -> np.ndarray:

@@ -442,7 +442,7 @@ def find_closed_motion(
     )
 
     def is_clear_of_singularities(reference: Reference) -> bool:
-        """True if the loops close from home on, nowhere nearer than `least` to a singularity."""
+        """Returns True if loops close from home on, no nearer than `least` to a singularity."""
         first = reference.q[0] - home
         fractions = np.linspace(
             0.0, 1.0, 1 + int(np.ceil(np.max(np.abs(first)) / THRESHOLDS.home_path_spacing))

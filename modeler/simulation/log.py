@@ -204,7 +204,7 @@ def _parse_number(text: str) -> float:
 
 @dataclass(frozen=True, eq=False)
 class Truth(ShortRepr):
-    """What no sensor sees.
+    """The exact motion and torque of a simulated robot, which no sensor sees.
 
     Attributes:
         q, qd, qdd: (n, joints) exact motion at each sample; qdd just after the torque's step.

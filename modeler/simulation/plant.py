@@ -360,7 +360,7 @@ def build_motor_inertia(plant: Plant) -> ca.Function:
 
 
 def select_free_limits(robot: Robot, limits: tuple[Limits, ...]) -> tuple[Limits, ...]:
-    """Returns those of `robot.free` among limits in the order of `robot.moving`."""
+    """Selects the limits of `robot.free` among those in the order of `robot.moving`."""
     pairs = zip(robot.moving_joints, limits, strict=True)
     return tuple(limit for joint, limit in pairs if joint.name not in robot.relations)
 

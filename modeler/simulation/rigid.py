@@ -235,7 +235,7 @@ def build_rigid_dynamics(robot: Robot, bodies: Mapping[str, Body]) -> RigidDynam
 
 
 def reduce_dynamics(links: RigidDynamics, turns: np.ndarray, offset: np.ndarray) -> RigidDynamics:
-    """Returns the same in fewer coordinates u of which all joints follow: q = turns u + offset.
+    """Returns the dynamics in fewer coordinates u, of all joints q = turns u + offset.
 
     M_u = turns^T M turns, h_u = turns^T h (the principle of virtual work).
     """

@@ -162,7 +162,7 @@ def compute_sampled_torques(
 
 @dataclass(frozen=True, eq=False)
 class ControllerGains:
-    """Of the P-PI cascade, for unit inertia.
+    """Gains of the P-PI cascade, for unit inertia.
 
     Attributes:
         position: rad/s of speed per rad of position error, 1/s.

@@ -17,7 +17,7 @@ from modeler.simulation.thresholds import THRESHOLDS
 
 @dataclass(frozen=True)
 class ShaftEffects:
-    """All effects together.
+    """What all effects together do on the shafts of a robot.
 
     Attributes:
         torque: (coordinates, 1) resisting torque, N m or N.

@@ -208,7 +208,7 @@ class _ReferenceBuilder:
                 self.values[order] += step[order][:, None] / lasts**order * distance
 
     def add_moves(self, until: float, rng: np.random.Generator, exciting: bool = True) -> float:
-        """Moves from the middle and back to it; gives the time at which they end, 0 without any.
+        """Adds moves from the middle and back to it; returns when they end, 0 without any.
 
         Exciting ones are of several speeds, some of only some joints, and none takes long.
         """

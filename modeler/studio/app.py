@@ -1,4 +1,4 @@
-"""The empty page: three doors, a demonstration, a robot, a log."""
+"""The server of the studio and its first page: a demonstration, a robot, a log."""
 
 import dataclasses
 import io
@@ -39,7 +39,7 @@ _RUNS = (("logs/train.parquet", 1), ("logs/held_out.parquet", 2))
 
 
 async def draw_start(studio: Studio) -> None:
-    """Draws it."""
+    """Draws the screen on which a project starts."""
     ui.label("Your robot's real dynamics").classes("studio-head")
     ui.label(
         "Compare a model with measurements, see where it fails, learn which physical effect is "

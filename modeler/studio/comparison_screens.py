@@ -38,7 +38,7 @@ _ROLES = {"test": "held out", "train": "training"}
 
 
 async def draw_fails(studio: Studio) -> None:
-    """Draws it."""
+    """Draws the screen of where the model fails."""
     draw_head(
         "Where it fails",
         "Measured against predicted torque, and what the rest follows. Drag in a picture to zoom, "
@@ -119,7 +119,7 @@ class _FailureView:
         self.robot: RobotFrame | None = None
 
     async def draw(self) -> None:
-        """Verdict, torques, map, residual."""
+        """Draws the verdict, the torques, the map and the residual."""
         with ui.column().classes("w-full gap-4") as self.body:
             await self._draw_parts()
         await self._draw_joint()
@@ -295,7 +295,7 @@ _DAYS_TIME = "days"  # that pictures of several models share
 
 
 async def draw_days(studio: Studio) -> None:
-    """Draws it."""
+    """Draws the screen of what changes from day to day and machine to machine."""
     draw_head(
         "Days and machines",
         "One model on two logs, two models on the same logs, and what changed from log to log.",

@@ -32,12 +32,12 @@ _FIRST = (
 
 
 async def draw(studio: Studio) -> None:
-    """Draws it."""
+    """Draws the screen of the logs."""
     await DataScreen(studio).draw()
 
 
 class DataScreen(ProjectLogs):
-    """One drawing of it.
+    """One drawing of the screen of the logs.
 
     Attributes:
         view: of the log that is looked at.
@@ -187,7 +187,7 @@ class DataScreen(ProjectLogs):
             self.draw_row(log.file)
 
     async def open_log(self, file: str) -> None:
-        """Looks at a log."""
+        """Opens a log below the list, to look at it."""
         if not self.logs[file].error:
             self.studio.state["log"] = file
             self._detail.clear()

@@ -34,7 +34,7 @@ _RANKS = ("fact", "named", "perhaps")
 
 
 async def draw_missing(studio: Studio) -> None:
-    """Draws it."""
+    """Draws the screen of what is missing in the model."""
     project = studio.project
     elements.draw_head(
         "What is missing", "Which physical effect the model lacks, on which joint, how large."
@@ -330,7 +330,7 @@ def _describe_place(one: Mapping[str, str | None]) -> str:
 
 
 async def draw_history(studio: Studio) -> None:
-    """Draws it."""
+    """Draws the screen of how the error fell, effect after effect."""
     project, path = studio.project, studio.project.collect_path()
     elements.draw_head(
         "Watch it fall",

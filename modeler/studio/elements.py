@@ -276,7 +276,7 @@ class RobotFrame:
         self._send_message(modeler="robot", content=content)
 
     def connect_joint(self, handler: Callable[[str], Any]) -> None:
-        """Calls it with the name of a joint or link that is clicked."""
+        """Calls `handler` with the name of a joint or link that is clicked."""
         self.frame.on("joint", lambda event: handler(str(event.args["detail"])), args=["detail"])
 
     def _send_message(self, **message: Any) -> None:

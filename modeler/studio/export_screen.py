@@ -200,7 +200,7 @@ _LIKE = (".urdf", ".xml", ".mjcf", ".sdf")
 
 
 async def draw(studio: Studio) -> None:
-    """Draws it."""
+    """Draws the screen of what can be taken away as files."""
     project = studio.project
     elements.draw_head(
         "Take away", "Everything leaves as files; the script and the notebook do it all again."

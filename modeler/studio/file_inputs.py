@@ -68,7 +68,7 @@ class _Upload:
             view = view[self._file.write(view) :]
 
     def finish(self) -> str:
-        """Its name at last."""
+        """Closes the file, gives it its name at last, and returns that."""
         self._file.close()
         stem, ending = os.path.splitext(self.name)  # noqa: PTH122  of a name, not a path
         number = 1
@@ -79,7 +79,7 @@ class _Upload:
         return self.name
 
     def discard(self) -> None:
-        """As if it had never come."""
+        """Discards the file, as if it had never come."""
         with contextlib.suppress(OSError):
             self._file.close()
         with contextlib.suppress(OSError):
@@ -212,7 +212,7 @@ def choose_files(
     tops = sorted({root.resolve() for root in roots.folders})
 
     def show_folder(folder: Path | None) -> None:
-        """The entries of a folder; None: the folders that may be read."""
+        """Shows the entries of a folder; of None, the folders that may be read."""
         entries = [Entry(str(top), top, None) for top in tops]
         places.clear()
         with places:

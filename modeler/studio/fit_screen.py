@@ -27,7 +27,7 @@ _WIDTH = 160  # pixels of a drawn value
 
 
 async def draw(studio: Studio) -> None:
-    """Draws it."""
+    """Draws the screen of the fit."""
     project = studio.project
     elements.draw_head("Fit", "Base parameters from the training stretches, each with its sigma.")
     if not project.robot or not project.collect_words("train"):

@@ -1,4 +1,4 @@
-"""The table in which columns of a log become ours: by menu, by dragging, with unit and sign."""
+"""The mapping of columns, and a log as it is looked at: windows, cuts, roles."""
 
 import dataclasses
 import re

@@ -32,7 +32,7 @@ _CHOSEN = "motion"
 
 
 async def draw(studio: Studio) -> None:
-    """Draws it."""
+    """Draws the screen of the motion that the robot should do next."""
     draw_head(
         "Next motion", "What the robot should do next, within its limits, so that a log tells most."
     )

@@ -58,7 +58,7 @@ class ProjectLog:
     out: tuple[TimeRange, ...] = ()
 
     def get_parts(self, role: str) -> list[LogPart]:
-        """Returns its time ranges of one role, "train" or "test"."""
+        """Returns the log's time ranges of one role, "train" or "test"."""
         parts: tuple[TimeRange, ...] = getattr(self, role)
         return [
             LogPart(self.file, time_range)

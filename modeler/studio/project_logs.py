@@ -86,7 +86,7 @@ class ProjectLogs:
             self.logs[file] = KnownLog(error=str(error))
 
     async def read_time(self, file: str) -> None:
-        """Reads its time, as the mapping says it."""
+        """Reads the time of a log, as the mapping says it."""
         known = self.logs[file]
         if known.guess is None:
             return

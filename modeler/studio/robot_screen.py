@@ -53,7 +53,7 @@ class RobotText:
         self._typed = 0.0
 
     def change_text(self, text: str, typing: bool = False) -> bool:
-        """Makes it another text, one step further; of typing a step a second.
+        """Changes the text to another one, one step further; of typing a step a second.
 
         Returns:
             False if it is the same.
@@ -105,7 +105,7 @@ _EXAMPLE = "i\t\u03b1 [deg]\ta [mm]\td [mm]\t\u03b8\n1\t0\t0\t333\tq1\n2\t-90\t0
 
 
 def draw_choices(studio: Studio, before: str, on_taken: Taken) -> None:
-    """Draws the ways to a robot.
+    """Draws the ways to get a robot: those between which a user chooses.
 
     Args:
         studio: the window.
@@ -226,7 +226,7 @@ _LIMITS = ("joint", "lower", "upper", "speed", "acceleration")
 
 
 async def draw(studio: Studio) -> None:
-    """Draws it."""
+    """Draws the screen of the robot."""
     document = studio.state.get("robot")
     names = (DRAFT, studio.project.robot)
     last = next((n for n in names if n and (studio.folder / n).exists()), "")
@@ -253,7 +253,7 @@ class _RobotEditor:
         self.limits: dict[str, list[str]] = {}  # that are not complete yet
 
     async def draw(self) -> None:
-        """The screen of a robot that there is."""
+        """Draws the screen of a robot that there is."""
         studio = self.studio
         with ui.row().classes("items-center w-full"):
             self.title = ui.label().classes("studio-head")
@@ -296,7 +296,7 @@ class _RobotEditor:
         tabs.on_value_change(lambda event: state.update({"robot tab": event.value}))
 
         def add_panel(name: str) -> ui.column:
-            """Hidden, not taken away: scripts fill what is in it."""
+            """Adds a panel that tabs hide, not take away: scripts fill what is in it."""
             return ui.column().classes("w-full").bind_visibility_from(tabs, "value", value=name)
 
         with add_panel("Table"):
@@ -360,7 +360,7 @@ class _RobotEditor:
     # Edits: each makes another text of the robot file.
 
     async def take_robot(self, text: str, notes: tuple[str, ...]) -> None:
-        """A robot that came from elsewhere."""
+        """Takes a robot that came from elsewhere into the project."""
         try:
             if self.studio.is_read_only:
                 raise ModelerError(self.studio.read_only_reason)
@@ -377,12 +377,12 @@ class _RobotEditor:
             self.studio.change_project(redraw=True, robot=ROBOT)
 
     async def move_in_history(self, back: bool) -> None:
-        """Undo and redo."""
+        """Undoes the last edit of the text (`back`), or redoes it."""
         if not self.studio.is_read_only and self.document.move_in_history(back):
             await self.check_text(all_cells=True)
 
     async def change_text(self, text: str, all_cells: bool = False) -> None:
-        """Another text."""
+        """Changes the text of the robot to another one, and checks it."""
         if self.document.change_text(text):
             self.studio.state.pop("robot notes", None)
             await self.check_text(all_cells)

@@ -53,7 +53,7 @@ class JointFacts:
 
 @dataclass(frozen=True)
 class RobotPreview:
-    """A text, looked at.
+    """What was read from the text of a robot file, right or wrong.
 
     Attributes:
         error: the line of the reader; "" where nothing is wrong.

@@ -232,7 +232,7 @@ class Hub:
 
 
 class Studio:
-    """One window.
+    """One window of the studio.
 
     Attributes:
         hub: of the folder.
@@ -424,7 +424,7 @@ class Studio:
                     waiting.delete()
 
     def notify_listeners(self) -> None:
-        """Updates what stands around the screen."""
+        """Updates what stands around the screen, such as its head."""
         for listener in self.listeners:
             listener()
 

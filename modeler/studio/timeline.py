@@ -152,7 +152,7 @@ class Timeline(
         marks: Sequence[Mapping[str, Any]] = (),
         brush: TimeRange | None = None,
     ) -> None:
-        """Draws what is so now."""
+        """Updates the drawing of a log to what its stretches and marks are now."""
         self._props["spans"] = build_spans(log)
         self._props["marks"] = list(marks)
         self._props["brush"] = None if brush is None else [brush.start, brush.end]

@@ -388,7 +388,7 @@ class _ModelOnLogs:
         return self.comparison.prediction
 
     def load_log(self, place: str) -> _Log:
-        """All columns of a log, by the names that the model has for them."""
+        """Loads all columns of a log, by the names that the model has for them."""
         mapping, joints = log_maps.build_log_map(self.compiled), self.compiled.spec.joints
         key = (_read_state(str(log_maps.parse_time_range(place)[0])), _read_state(self.model))
         return _cache_result("log", key, lambda: _read_mapped(place, mapping, joints), 3)

@@ -313,7 +313,7 @@ class Comparison(Result):
     by_unit: Mapping[str, float]  # relative error over the joints of one unit; NaN: no torque
 
     def to_json(self) -> dict[str, Any]:
-        """Returns plain numbers and text; undefined numbers are None."""
+        """Returns the comparison as plain numbers and text; undefined numbers are None."""
         names = "log samples relative_error by_unit"
         logs = [select_attributes(log, names) | {"joints": dict(log.joints)} for log in self.logs]
         return convert_to_plain(

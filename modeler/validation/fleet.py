@@ -136,7 +136,7 @@ class QuantityHistory(ShortRepr):
 
 @dataclass(frozen=True, eq=False)
 class Fleet(Result):
-    """What drifts where.
+    """What drifts where in a fleet of machines.
 
     Attributes:
         robot: kind of the machines.
@@ -175,7 +175,7 @@ class Fleet(Result):
         return "odd machine" if self.findings else "nothing drifts"
 
     def to_json(self) -> dict[str, Any]:
-        """The result for scripts; numbers that mean nothing are null."""
+        """Returns the result for scripts; numbers that mean nothing are null."""
         return convert_to_plain(
             {
                 "robot": self.robot,

@@ -279,7 +279,7 @@ def _arrange_logs(
 
 @dataclass(frozen=True)
 class Outlier:
-    """A machine apart.
+    """A machine that stands apart from the others.
 
     Attributes:
         machine: index.
@@ -353,7 +353,7 @@ def find_outlying_machines(
 
 @dataclass(frozen=True, eq=False)
 class QuantityTests:
-    """What was tested; k logs machine after machine in time, d quantities.
+    """The tests of quantities for drift; k logs, machine after machine in time, d quantities.
 
     Attributes:
         quantities: (d,) what.

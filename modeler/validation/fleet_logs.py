@@ -428,7 +428,7 @@ _LOAD_ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
 
 @dataclass(frozen=True)
 class Quantity(ShortRepr):
-    """What may drift.
+    """A quantity that may drift: a parameter, a gain or a load.
 
     Attributes:
         effect: id of the catalogue.

@@ -26,7 +26,7 @@ from modeler.validation.forward_dynamics import Stability
 
 @dataclass(frozen=True)
 class JointFreeRun(ShortRepr):
-    """One joint.
+    """How one joint runs freely beside its log.
 
     Attributes:
         name: of the joint.

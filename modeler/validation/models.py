@@ -72,7 +72,7 @@ class ModelComparison(Result):
         return [item.joint.name for item in self.joints if item.best == model]
 
     def to_json(self) -> dict[str, Any]:
-        """Returns plain data, every model by its name."""
+        """Returns the comparison as plain data, every model by its name."""
         return {"robot": self.predictions[0].robot, "models": self.as_dicts()}
 
     def as_dicts(self) -> list[dict[str, Any]]:

@@ -1,4 +1,4 @@
-"""One joint against time: measured, predicted, residual, and a close look at the worst window."""
+"""Pictures of a comparison: torques and residual over time, over a coordinate, by joint."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace

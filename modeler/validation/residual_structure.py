@@ -310,7 +310,7 @@ class Partner:
 
 @dataclass(frozen=True)
 class Repetition:
-    """All partners of all logs."""
+    """The partners of all logs: times at which the robot did the same."""
 
     kind: Literal["laps", "logs"]
     partners: tuple[Partner, ...]
@@ -469,7 +469,7 @@ def _interpolate_positions(motion: _RepeatedMotion, times: np.ndarray) -> np.nda
 
 @dataclass(frozen=True)
 class VarianceShares:
-    """Of sum (measured - mean)^2; the three sum to one.
+    """Shares of sum (measured - mean)^2; the three sum to one.
 
     Explained is R^2, and negative for a prediction that is worse than the best constant.
     """

@@ -25,7 +25,7 @@ from modeler.views.thresholds import THRESHOLDS
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """Of one joint.
+    """A quantity of one joint, over which a residual is drawn.
 
     Attributes:
         shows: what it is.
@@ -272,7 +272,7 @@ def find_inliers(left: np.ndarray, block: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """All other effects that were found are in the model, with the effect and without it.
+    """The evidence for one effect: fits with all other found effects, without it and with it.
 
     Attributes:
         step: of the effect.

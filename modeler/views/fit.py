@@ -19,7 +19,7 @@ from modeler.estimation import (
 )
 from modeler.views import history, page
 from modeler.views.figures import draw_parameters, draw_picture
-from modeler.views.log import build_noise_blocks, draw_noise_picture
+from modeler.views.noise import build_noise_blocks, draw_noise_picture
 from modeler.views.thresholds import THRESHOLDS
 
 # The page of all estimators on the same logs.

@@ -1,35 +1,17 @@
-"""The noise of the motion as a picture: where it hides the motion, and outweighs the torques."""
+"""Logs: the page of what is in one, its channels and clock, and the noise of the motion."""
 
 from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLACK,
-    BLUE,
-    GREEN,
-    ORANGE,
-    PALE,
-    PINK,
-    SLATE,
-    VERMILLION,
-    Curve,
-    Panel,
-    Picture,
-    Points,
-    Series,
-    Span,
-    Style,
-    thin_points,
-)
+from modeler.core.figure import SLATE, Panel, Picture, Points, Style, thin_points
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Cell, Table, format_percent
 from modeler.excitation import ExcitingMotion
 from modeler.logs import Clock, LogInspection, split_label
 from modeler.regression import (
     Bands,
-    ChannelNoise,
     DataReport,
     Log,
     Observation,
@@ -39,126 +21,8 @@ from modeler.regression import (
 from modeler.simulation import SimulatedLog, write_log
 from modeler.views import page
 from modeler.views.figures import build_curves, draw_log, draw_picture
+from modeler.views.noise import build_noise_blocks, draw_noise_picture
 from modeler.views.thresholds import THRESHOLDS
-
-_ROW = 210  # pixels
-
-_POWER = {"positions": 4, "speeds": 2, "accelerations": 0}
-_SPECTRUM, _FLOOR, _MEETS = Style(BLUE, 1.6), Style(ORANGE, 1.6), Style(SLATE, 1.2, dash=True)
-_TORQUE, _OF_NOISE = Style(GREEN, 1.6), Style(VERMILLION, 1.6)
-_POSITION, _PARALLEL = Style(PINK, 1.4), Style(BLACK, 1.4)
-
-
-def build_noise_blocks(bands: Bands | None) -> list[page.Block]:
-    """Returns how the cut-offs were chosen, and the picture; nothing where nothing moves."""
-    picture = draw_noise_picture(bands)
-    if bands is None or picture is None:
-        return []
-    said = [page.Items([("", line) for line in bands.chosen_by])] if bands.chosen_by else []
-    return [*said, page.Figure(picture, titled=False)]
-
-
-def draw_noise_picture(bands: Bands | None) -> Picture | None:
-    """Draws spectrum and noise floor of each moving joint, and its torque noise if fitted."""
-    moving = [one for one in bands.noise if one.moves and any(one.spectrum)] if bands else []
-    if bands is None or not moving:
-        return None
-    fitted = any(one.torque_noise for one in moving)
-    rows = tuple(
-        (_build_motion_panel(one, bands), *[_build_torque_panel(one, bands)] * fitted)
-        for one in moving
-    )
-    caption = _write_caption(bands, moving[0].of, fitted)
-    height = 60 + _ROW * len(rows)
-    return Picture("noise_of_the_motion", "Noise of the motion", caption, rows, height)
-
-
-def _build_motion_panel(one: ChannelNoise, bands: Bands) -> Panel:
-    """Its spectrum, and the floor that it meets."""
-    f, S = np.array(one.frequency), np.array(one.spectrum)
-    f, S = f[S > 0.0], S[S > 0.0]
-    ends = min(S.min(initial=np.inf), one.density or np.inf), S.max(initial=one.density)
-    series: list[Series] = [Curve(f"spectrum of the {one.of}", f, S, _SPECTRUM)]
-    if one.density and one.hides_above_hz:
-        along = np.array([one.hides_above_hz, f[-1]])
-        series.append(Curve("floor: its noise", along, np.full(2, one.density), _FLOOR))
-        series.append(
-            _build_vertical_curve("the noise hides the motion", one.hides_above_hz, ends, _MEETS)
-        )
-    band = np.array([[min(f[0], one.band_hz) / 2.0, one.band_hz]])
-    colour = f", noise of f^-{one.colour:.1f}" if one.colour else ""
-    unit = {4: one.unit, 2: f"({one.unit}/s)", 0: f"({one.unit}/s2)"}[_POWER[one.of]]
-    title, label = f"Joint {one.joint}: {one.of}{colour}", f"density [{unit}^2/Hz]"
-    spans = (Span("motion band", band, PALE["blue"]),) if one.band_hz else ()
-    every = (*series, *_build_cutoff_curves(bands, ends))
-    return Panel(title, "frequency [Hz]", label, every, "log", spans=spans)
-
-
-def _build_torque_panel(one: ChannelNoise, bands: Bands) -> Panel:
-    """A f^p, p = 4 of positions, against the level of the torque."""
-    A, T, power = one.torque_of_noise, one.torque_noise, _POWER[one.of]
-    if not A or not T or not power:  # without a motor or rows, or with exact accelerations
-        return Panel("", "", "", ())
-    f, cross, factor = (
-        one.frequency,
-        (T / A) ** (1.0 / power),
-        10.0 ** (THRESHOLDS.noise_line_decades / power),
-    )
-    high = min(f[-1], cross * factor)
-    along = np.geomspace(max(f[0], min(cross, high) / factor), high, 20)
-    noise = A * along**power
-    ends = (
-        min(noise[0], T / THRESHOLDS.noise_level_factor),
-        max(noise[-1], T * THRESHOLDS.noise_level_factor),
-    )
-    label = f"density [({'N' if one.unit == 'm' else 'N m'})^2/Hz]"
-    title = f"Joint {one.joint}: torques{', which limits' * (one.joint == bands.limited_by)}"
-    level = Curve("noise of the torque", np.array([f[0], f[-1]]), np.full(2, T), _TORQUE)
-    curves = (
-        Curve("torque of that noise", along, noise, _OF_NOISE),
-        level,
-        *_build_cutoff_curves(bands, ends),
-    )
-    return Panel(title, "frequency [Hz]", label, curves, "log")
-
-
-def _build_cutoff_curves(bands: Bands, ends: tuple[float, float]) -> list[Curve]:
-    both = (
-        ("position filter", bands.position_cutoff, _POSITION),
-        ("parallel filter", bands.parallel_cutoff, _PARALLEL),
-    )
-    return [_build_vertical_curve(label, at, ends, style) for label, at, style in both if at]
-
-
-def _build_vertical_curve(label: str, at: float, ends: tuple[float, float], style: Style) -> Curve:
-    return Curve(label, np.full(2, at), np.array(ends), style)
-
-
-def _write_caption(bands: Bands, of: str, fitted: bool) -> str:
-    text = (
-        f"Power density of the {of} (blue, means over third octaves) and the floor that it meets, "
-        "the noise of the sensor (orange); from the dashed line on, it hides the motion. The band "
-        "of the motion, with 99 % of the velocity's energy, is pale blue."
-    )
-    if bands.position_cutoff:
-        text += " Cut-off of the position filter: pink; of the parallel filter: black."
-    if fitted:
-        text += (
-            f" On the right the same noise as torque, A f^{_POWER[of]} through the inertia matrix "
-            "(dark orange), and the noise of the torque itself (green): above their crossing the "
-            "sensor is what is seen. The parallel filter lies no higher than the first crossing of "
-            "all joints, unless that is below twice the motion band; the lines above say why."
-        )
-    if bands.trembling:
-        text += (
-            " Here it was lowered further: behind wider filters the model's torque trembles "
-            f"{bands.trembling:.2g} times as much as the measured one."
-        )
-    return text
-
-
-# What is in a log, as pictures and as a page.
-
 
 _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remarks")
 
@@ -375,7 +239,7 @@ def _collect_log_tables(log: Log) -> Tables:
         return Table.build(f"channels of {log.name}, SI units", head, rows)
 
     def build_data_table() -> Table:
-        """Every row; a long table."""
+        """Builds the table of every row of the log; a long one."""
         columns = {"time": log.time, **_collect_log_channels(log)}
         rows = tuple(map(tuple, np.column_stack([*columns.values()]).tolist()))
         return Table(log.name, tuple((name, "") for name in columns), rows)

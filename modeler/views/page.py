@@ -1,4 +1,4 @@
-"""What stands on a page, block after block, as plain data."""
+"""Pages: blocks as plain data, their rendering, the index of a folder."""
 
 import dataclasses
 import functools
@@ -20,7 +20,7 @@ from modeler.views import figure_page
 
 @dataclass(frozen=True)
 class PageCell:
-    """Of a table, where a text alone is not enough.
+    """A cell of a table, where a text alone is not enough.
 
     Attributes:
         text: what stands there.
@@ -35,7 +35,7 @@ class PageCell:
 
 @dataclass(frozen=True)
 class PageTable:
-    """Head and rows.
+    """A table of a page: its head and its rows.
 
     Attributes:
         head: names of the columns.
@@ -336,7 +336,7 @@ class Origin:
 
 @dataclass(frozen=True)
 class Page:
-    """One page.
+    """One page of results, by what stands on it.
 
     Attributes:
         title: plain text.

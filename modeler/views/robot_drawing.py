@@ -1,4 +1,4 @@
-"""Where names stand in a picture: beside what they name, on nothing else."""
+"""A robot on paper: parts, arrows and names beside what they name."""
 
 import io
 import itertools

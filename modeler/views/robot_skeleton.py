@@ -1,4 +1,4 @@
-"""The table in numbers: every cell a constant, or a constant and a coefficient of the variable."""
+"""The table of a robot in numbers: frames, closed postures, gaps of loops, for its picture."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

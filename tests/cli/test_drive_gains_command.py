@@ -101,7 +101,7 @@ MISTAKES = {
     "--payload-log loaded.parquet": "method tls needs the mass of the load, .* --payload-mass KG",
     "--payload-log loaded.parquet --payload-mass 0": "mass 0.0 kg; expected above 0",
     "--payload-log torque.parquet --payload-mass 2": "torque.parquet: got tau1, a torque; .* log",
-    "--payload-moved": "move needs a log with the load; name it",
+    "--payload-moved": "need a log with the load; name it",
     "--method weighted": "let `modeler fit --method tls` find it",
 }
 

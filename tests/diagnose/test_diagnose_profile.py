@@ -74,10 +74,12 @@ def test_the_truth_is_where_the_interval_says(effect):
     for seed in range(30_400, 30_404):
         along, values = found(hide, seed)
         truth = np.array(true_values(values))
-        low, high = along.intervals().T
-        z += list((along.told.values - truth) / along.deviations())
+        low, high = along.compute_intervals().T
+        z += list((along.reported_point.values - truth) / along.compute_deviations())
         inside += list((low <= truth) & (truth <= high))
-        blind += list(np.abs(along.told.values - truth) < 1.96 * along.told.deviations)
+        blind += list(
+            np.abs(along.reported_point.values - truth) < 1.96 * along.reported_point.deviations
+        )
     assert np.sum(np.logical_not(inside)) <= max(1.0, len(inside) / 6)
     assert 0.2 < np.sqrt(np.mean(np.square(z))) < 1.6
     assert np.mean(inside) >= np.mean(blind)
@@ -87,19 +89,19 @@ def test_the_truth_is_where_the_interval_says(effect):
 def test_a_narrow_likelihood_gives_the_delta_method():
     # g(theta) linear, S(theta) quadratic: var g = s^2 + (dg/dtheta)^2 var theta.
     along, _ = found("stribeck@2", 902)
-    told = along.told.shapes
-    near = [(p, r) for p, r in zip(along.points, along.rise, strict=True)
-            if p.shapes["d"] == told["d"] and r < 9.0]  # fmt: skip
-    x = np.log([p.shapes["vs"] for p, _ in near])
+    told = along.reported_point.nonlinear_parameters
+    near = [(p, r) for p, r in zip(along.points, along.squares_rise, strict=True)
+            if p.nonlinear_parameters["d"] == told["d"] and r < 9.0]  # fmt: skip
+    x = np.log([p.nonlinear_parameters["vs"] for p, _ in near])
     rise = np.array([r for _, r in near])
     g = np.array([p.values[0] for p, _ in near])
     curvature = np.polyfit(x, rise, 2)[0]
     slope = np.polyfit(x, g, 1)[0]
-    own = along.told.deviations[0] * along.factor[0]
+    own = along.reported_point.deviations[0] * along.factor[0]
     delta = np.sqrt(own**2 + slope**2 / curvature)
-    assert along.deviations()[0] == pytest.approx(delta, rel=0.3)
-    assert along.deviations()[0] > 1.15 * own  # the shape counts
-    low, high = along.intervals()[0]
+    assert along.compute_deviations()[0] == pytest.approx(delta, rel=0.3)
+    assert along.compute_deviations()[0] > 1.15 * own  # the shape counts
+    low, high = along.compute_intervals()[0]
     assert high - low == pytest.approx(2.0 * 1.96 * delta, rel=0.3)
 
 

@@ -23,8 +23,8 @@ pytestmark = [
 ]
 
 
-LIKE_MOTION = ("prediction", "is left and is no noise")
-HALVES = ("prediction", "tell different F")
+LIKE_MOTION = ("prediction", "a residual that is no noise")
+HALVES = ("prediction", "differs significantly")
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,7 @@ from modeler.simulation.portable_math import (
 _WRITE = """
 import sys
 import numpy as np
+from modeler.api.workflow import load
 from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
 found = {}
 for text in sys.argv[2:]:
