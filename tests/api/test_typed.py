@@ -32,7 +32,7 @@ low, high = one["Fs2"].conf_int(0.95)
 error: float = one.error(pl.DataFrame())
 added: md.Model = one.add("spring", joint=2, held_out=["x.csv", pl.DataFrame()])
 added = md.add(added, "spring", ["x.csv"])
-added = md.undo(md.reduced(added), ["x.csv"])
+added = md.remove_last(md.reduced_model(added), ["x.csv"])
 found: md.Diagnosis = diagnose(one, ["x.csv"])
 files: dict[str, str] = one.to_c("out").code
 """
