@@ -389,7 +389,7 @@ async def _draw_logs(studio: Studio, state: dict[str, Any]) -> None:
 
 
 async def _draw_models(studio: Studio, state: dict[str, Any]) -> None:
-    """Two models of the project on the same logs: who is better where, beyond doubt."""
+    """Two models of the project on the same logs: which is significantly better where."""
     project = studio.project
     models = [step for step in project.steps if step.model_file]
     known = {step.number: f"{step.number}  {step.task.title}" for step in models}
@@ -448,9 +448,9 @@ def _draw_model_comparison(studio: Studio, step: Step) -> None:
         for each in model_entries:
             if each["best_on"]:
                 joints = ", ".join(each["best_on"])
-                ui.label(f"{each['model']} predicts joint {joints} best, beyond doubt.")
+                ui.label(f"{each['model']} predicts joint {joints} significantly better.")
         if not any(each["best_on"] for each in model_entries):
-            ui.label("No model is better than the other beyond doubt on any joint.")
+            ui.label("No model is significantly better than the other on any joint.")
         rows = []
         for joint in model_entries[0]["joints"]:
             joint_entries = [each["joints"][joint] for each in model_entries]
@@ -460,7 +460,7 @@ def _draw_model_comparison(studio: Studio, step: Step) -> None:
             ]
             rows.append([f"joint {joint}", *cells])
         draw_table(["", *(each["model"] for each in model_entries)], rows)
-        ui.label("*: better than the other beyond doubt.").classes("studio-soft")
+        ui.label("*: significantly better than the other.").classes("studio-soft")
     _draw_pictures(studio, step, _DAYS_TIME)
 
 
