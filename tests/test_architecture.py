@@ -128,7 +128,7 @@ PLANTED = [
     ("estimation/utils.py", "", "name the idea"),
     ("magic/a.py", "import sympy", "magic is no stage we know"),
     ("__init__.py", "from modeler.robot import Robot", "imports nothing"),
-    ("estimation/a.py", "x = 1\n" * (MODULE_LINES + 1), "at most 730"),
+    ("estimation/a.py", "x = 1\n" * (MODULE_LINES + 1), "at most 700"),
 ]  # fmt: skip
 
 

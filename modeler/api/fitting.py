@@ -92,7 +92,7 @@ def check_options(options: FitOptions, load: Load | None = None) -> None:
         f"got method {method}{suggest_name(str(method), METHODS)}; expected one of "
         f"{', '.join(METHODS)}": method not in METHODS,
         "--payload-mass, --payload-link and --payload-moved need a log with the load; name it with "
-        "--payload-log LOG": (
+        "--payload-log LOG, in Python load=Load(logs)": (
             load is not None and not loaded and (moved or {load.mass, load.link} != {None})
         ),
         f"method {method} takes no logs with a load; expected {loads} or {GAIN_METHOD}": (
@@ -108,8 +108,8 @@ def check_options(options: FitOptions, load: Load | None = None) -> None:
             energy and method not in windows.split(", ")
         ),
         "the energy model takes no logs with a load; leave out one of them": energy and loaded,
-        f"method {method} needs a log with a load of known mass; add --payload-log LOG "
-        "--payload-mass KG": gains and not loaded,
+        f"method {method} needs a log with a load of known mass; give --payload-log LOG "
+        "--payload-mass KG, in Python load=Load(logs, mass)": gains and not loaded,
         f"method {method} needs the mass of the load, which fixes the scale of all gains; add "
         "--payload-mass KG": gains and load is not None and load.mass is None,
     }

@@ -10,7 +10,7 @@ class Thresholds:
     export_states: int = 200
     """States at which exported torques are compared; no study."""
     export_seed: int = 1
-    """Seed of these states."""
+    """Seed of the random states at which exported torques are compared."""
     export_amplitude: float = 0.05
     """rad or m of random motion around home for them; no study."""
     chunks_per_job: int = 2

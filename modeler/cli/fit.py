@@ -86,9 +86,6 @@ def _check_files(args: argparse.Namespace, method: Methods) -> None:
         f"methods, as in --method {ALL}, and of a model by `modeler compare`": (
             not method.is_several and bool(args.holdout)
         ),
-        "--out: missing; expected the model file to write": (
-            not method.is_several and args.out is None
-        ),
         f"--robot-out: --method {method} ends in base parameters; use --method consistent, which "
         f"ends in all standard parameters, or {GAIN_METHOD}, which finds drive gains": (
             args.robot_out is not None and method not in (*consistent, GAIN_METHOD)

@@ -181,6 +181,7 @@ def _add_command(commands: Any, name: str, command: Mapping[str, Any]) -> None:
     arguments = {**command.get("arguments", {}), "--json": json}
     groups = {title: dict(entries) for title, entries in command.get("groups", {}).items()}
     if name == "fit":
+        parser.find_mistake = _find_missing_model
         arguments |= _describe_fields("")
         groups["processing"] |= _describe_fields("processing")
     titled: dict[str, dict[str, Any]] = {"logs": {}, "what is written": {}}
@@ -200,6 +201,12 @@ def _add_command(commands: Any, name: str, command: Mapping[str, Any]) -> None:
     parser.set_defaults(load=partial(_import_run, command["run"]))
 
 
+def _find_missing_model(args: argparse.Namespace) -> str:
+    """A model is written of one method, and of several none."""
+    alone = args.out is None and not args.method.is_several
+    return "the following arguments are required: --out" if alone else ""
+
+
 def _import_run(place: str) -> Run:
     module, _, function = place.partition(":")
     run: Run = getattr(import_module(f"modeler.cli.{module}"), function)
@@ -211,6 +218,9 @@ def _import_run(place: str) -> Run:
 
 class _Parser(argparse.ArgumentParser):
     """Parses one command, or all of them; help is written as a result is."""
+
+    find_mistake: Callable[[argparse.Namespace], str] | None = None
+    """Describes what is wrong with a line that argparse takes; "" for nothing."""
 
     _stated: str | None = None
     _intermixed = False  # argparse parses twice: options, then arguments
@@ -247,6 +257,8 @@ class _Parser(argparse.ArgumentParser):
                 self._refuse_option(word)
         if rest:
             self.error(f"got {' '.join(rest)} as well; expected no more arguments")
+        if self.find_mistake is not None and (mistake := self.find_mistake(arguments)):
+            self.error(mistake)
         typed = (find_option(self, word) for word in words)
         arguments.typed = frozenset(action.dest for action in typed if action is not None)
         return arguments, rest

@@ -8,7 +8,7 @@ class Thresholds:
     """Holds all limits, counts and delays of the package."""
 
     clock_interval: float = 0.5
-    """s between updates of the clock."""
+    """s between updates of the time that the console shows while a command runs."""
     progress_interval: float = 0.1
     """s at least between two lines of progress."""
     max_listed_coefficients: int = 200
@@ -20,7 +20,7 @@ class Thresholds:
     interrupt_patience: float = 3.0
     """s from the interrupt to the end by force."""
     curve_points: int = 366
-    """Points of the curve of an effect."""
+    """Points at which the curve of an effect is computed for `modeler` lists."""
     max_unremarked_error: float = 0.2
     """Relative error of a fit above which `modeler log` warns; no study."""
     max_determined_sigma: float = 10.0

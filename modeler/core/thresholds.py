@@ -11,7 +11,7 @@ class Thresholds:
     max_repr_length: int = 160
     """Characters of a line, the name of the class aside."""
     max_repr_text: int = 40
-    """Characters of a text in it."""
+    """Characters of a text, or of a tuple, in that line; a longer text is cut."""
     max_repr_items: int = 4
     """Entries of a tuple that are shown."""
     # files

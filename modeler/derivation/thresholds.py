@@ -10,15 +10,16 @@ class Thresholds:
     assembly_starts: int = 300
     """Random postures from which assembly modes are searched; no study."""
     start_seed: int = 1955
-    """Seed of these postures."""
+    """Seed of the random postures from which assembly modes are searched."""
     newton_iterations: int = 60
     """Newton steps until a start is given up; no study."""
     max_search_step: float = 0.5
     """Longest step of a joint in a search, rad or robot sizes; no study."""
     min_damping: float = 1e-13
-    """Smallest Levenberg-Marquardt damping; no study."""
+    """Lower bound of the Levenberg-Marquardt damping, which is the squared residual of the loops;
+    no study."""
     max_damping: float = 1e-2
-    """Largest Levenberg-Marquardt damping; no study."""
+    """Upper bound of the same damping; no study."""
     rough_residual: float = 1e-7
     """Residual in robot sizes from which Newton's method ends a search; no study."""
     travel_reach: float = 2.0
@@ -37,7 +38,7 @@ class Thresholds:
     min_ratio_postures: int = 8
     """Fewest postures at which constant ratios are counted; no study."""
     ratio_seed: int = 1784
-    """Seed of these postures."""
+    """Seed of the steps to the postures at which constant ratios are counted."""
     ratio_step: float = 0.02
     """Motion of the actuated joints between them, rad or robot sizes; no study."""
     ratio_rank: float = 1e-7
@@ -67,7 +68,7 @@ class Thresholds:
     zero_row: float = 1e-9
     """Length of a Jacobian row over the longest that counts as zero: rounding."""
     posture_steps: int = 12
-    """Steps of the motion to a nearby posture; no study."""
+    """Steps, each with the loops closed, in which a random nearby posture is reached; no study."""
     restart_seed: int = 7
     """Seed of restarts with other passive angles."""
     restarts: int = 200
@@ -90,7 +91,7 @@ class Thresholds:
     mobility_postures: int = 12
     """Postures at which the degrees of freedom are counted; no study."""
     mobility_seed: int = 20120
-    """Seed of these postures."""
+    """Seed of the postures at which the degrees of freedom are counted."""
     min_motion_share: float = 0.1
     """Share of the largest joint motion from which a message lists the joint."""
     max_home_move: float = 0.5
@@ -127,9 +128,9 @@ class Thresholds:
     max_constant_terms: int = 1000
     """Terms of a constant written out as a sum of products; no study."""
     max_constant_depth: int = 60
-    """Nested operations of a constant; no study."""
+    """Operations inside each other above which a constant is refused as too long; no study."""
     max_number_bits: int = 10_000
-    """Bits of an exact number; no study."""
+    """Bits of an exact number above which a power is refused as too long; no study."""
     max_angle_multiple: int = 64
     """Multiple of an angle whose sine is composed of that of the angle."""
     cached_plans: int = 16
@@ -145,9 +146,10 @@ class Thresholds:
     slope_tolerance: float = 1e-6
     """Error of a share that is the curvature of the change."""
     max_constant_denominator: int = 4
-    """Denominator of a symbol's share; no study."""
+    """Largest denominator of the fraction of a symbol that is looked for in a constant; no
+    study."""
     constant_decimals: int = 10
-    """Decimals of a number of the table."""
+    """Decimals, of rad or m, to which a constant is looked for as a decimal number."""
     decimal_tolerance: float = 1e-13
     """Difference from such a decimal: [home] has the digits of a double."""
     max_pi_twelfths: int = 24
@@ -165,11 +167,11 @@ class Thresholds:
     relation_postures: int = 16
     """Postures at which relations are looked for; no study."""
     relation_seed: int = 31
-    """Seed of these postures."""
+    """Seed of the postures at which relations are looked for."""
     relation_rank: float = 1e-9
     """Relative singular value, and error of a ratio, that is rounding."""
     max_ratio_denominator: int = 24
-    """Denominator of a ratio of joint speeds; no study."""
+    """Largest denominator of a ratio of joint speeds that is looked for as a fraction; no study."""
     relation_residual: float = 1e-7
     """Deviation from a relation over all postures, rad or m: rounding."""
     distinct_points: int = 4
@@ -190,7 +192,7 @@ class Thresholds:
     zero_factor: float = 1e-9
     """Factor that counts as zero, and difference from a whole number that is rounding."""
     max_letter_degree: int = 12
-    """Degree of a coefficient in one letter; no study."""
+    """Degree in one letter above which a coefficient is not interpolated; no study."""
     max_quotient_terms: int = 160
     """Terms of a coefficient that is interpolated; no study."""
     interpolation_checks: int = 2
@@ -200,9 +202,9 @@ class Thresholds:
     extra_points: int = 3
     """Points beyond the unknown coefficients, which check them."""
     walkers: int = 32
-    """Walkers along the loops; no study."""
+    """Fewest random walks along the loops from home at the same time; no study."""
     walk_steps: int = 40
-    """Steps of each walker; no study."""
+    """Steps of each of these random walks; no study."""
     max_walk_step: float = 0.25
     """Longest step of a joint, rad or robot sizes; no study."""
     moving_share: float = 0.3

@@ -9,7 +9,6 @@ from threadpoolctl import threadpool_limits
 
 from modeler.core.errors import DataError
 from modeler.diagnosis.candidates import StatedEffects, thin_samples
-from modeler.diagnosis.equations import discover_equations
 from modeler.diagnosis.events import compute_burst_ratio, find_contact_window, fit_push_torque
 from modeler.diagnosis.findings import (
     BandSearch,
@@ -22,6 +21,7 @@ from modeler.diagnosis.findings import (
 from modeler.diagnosis.generation import estimate_logger_shift, generate_candidates
 from modeler.diagnosis.messages import exclude_friction, find_faults
 from modeler.diagnosis.plausibility import find_gravity_confounders
+from modeler.diagnosis.proposals import discover_equations
 from modeler.diagnosis.result import Diagnosis, ParameterChange, PushWindow
 from modeler.diagnosis.scoring import make_veto
 from modeler.diagnosis.search import Search, SearchStep, search_effects

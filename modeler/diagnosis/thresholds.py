@@ -31,7 +31,8 @@ class Thresholds:
     min_stroke: Mapping[str, float] = field(default_factory=lambda: {"rad": 1e-3, "m": 1e-4})
     """rad or m by unit; a joint that moves less is at rest. Above encoder noise; no study."""
     max_one_way_share: float = 0.98
-    """Share of the moving rows of one direction. No study."""
+    """Share of the moving rows in one direction above which friction and offset are not told apart;
+    no study."""
     max_single_speed_ratio: float = 1.3
     """Ratio of the 90 % and 10 % quantiles of the speed below which a joint has one speed. No
     study."""
@@ -110,7 +111,7 @@ class Thresholds:
     gain_tolerance: float = 1e-8
     """Relative change of a gain at convergence."""
     max_gain_reweightings: int = 5
-    """Iterations of the weights of the joints. No study."""
+    """Solutions of the gain equations with joint weights from the residuals; no study."""
     min_gain_residual_share: float = 1e-6
     """Share of a joint's rms torque that bounds its residual from below. Rounding."""
     max_gain_change: float = 1e-3
@@ -128,7 +129,7 @@ class Thresholds:
     push_margin: float = 0.5
     """s before and after a push that are excluded with it. No study."""
     push_cell: float = 0.1
-    """s; resolution of the time of a push. No study."""
+    """s; width of the cells of time in which a push is looked for; no study."""
     prediction_cell: float = 0.05
     """s of a push that are predicted from the cells around. No study."""
     prediction_reach: int = 4
@@ -151,13 +152,14 @@ class Thresholds:
     min_loud_burst_ratio: float = 30.0
     """The same where named columns remove the bursts. No study."""
     min_load_reversals: int = 5
-    """Count of sign changes of the load. No study."""
+    """Count of sign changes of the load below which no energy ratio of bursts is computed; no
+    study."""
     max_formula_parameters: int = 4
     """Nonlinear parameters of one definition. The format allows as many."""
     unit_scale: float = 1.37
     """Factor that reveals the exponent of a unit. Any number that is no power."""
     exponent_digits: int = 6
-    """Digits of an exponent of a unit. Rounding."""
+    """Digits after the point to which the exponent of a unit is rounded. Rounding."""
     min_resonance_ratio: float = 3.0
     """Resonance over the bandwidth of the motion, below which a joint moves as one body. No
     study."""
@@ -202,7 +204,7 @@ class Thresholds:
     max_refined_coordinates: int = 4
     """Coordinates whose law is refined. Bounds the time; no study."""
     baseline_damping: float = 0.1
-    """Damping ratio of the oscillators of the baseline. No study."""
+    """Damping ratio of the oscillators, excited by the accelerations, in the baseline; no study."""
     min_friction_share: float = 0.035
     """Friction over torque, rms: the lowest of measured robots with gears has 0.11."""
     min_friction_residual_ratio: float = 2.0
@@ -303,7 +305,7 @@ class Thresholds:
     min_refined_gain: float = 0.02
     """Variance reduction below which nothing is refined. No study."""
     max_effects: int = 8
-    """Effects named in one diagnosis."""
+    """Effects that a diagnosis names unless another number is asked for."""
     min_description_gain: float = 0.15
     """Variance reduction with which an implausible effect still describes the data. No study."""
     max_rejections: int = 20

@@ -46,7 +46,7 @@ class Thresholds:
     """Share of a variance that such a difference has beside its expected noise;
     tests/estimators/coverage."""
     max_step: float = 1e-3
-    """s, of a step of the simulation."""
+    """s; longest integration step of the simulation that makes instruments."""
     max_loop_step: float = 0.4
     """Bandwidth kv times the step, at most: stability of Adams and Bashforth."""
     integral_share: float = 0.25
@@ -147,7 +147,7 @@ class Thresholds:
     delay_difference: float = 5e-3
     """s between the motions of which a slope is taken."""
     delay_steps: int = 4
-    """Gauss-Newton steps of a delay."""
+    """Gauss-Newton steps by which the delay of a channel is refined."""
     min_shift_hint: float = 0.2
     """Fall of the sum of log errors that the linearised shift promises at least."""
     detectable_error_ratio: float = 4.0 / 3.0
@@ -167,13 +167,13 @@ class Thresholds:
     gravity_starts: int = 3
     """Axes from which a direction of gravity is searched."""
     gravity_steps: int = 6
-    """Gauss-Newton steps of a direction of gravity."""
+    """Most Gauss-Newton steps by which the direction of gravity is refined."""
     max_gravity_columns: int = 150
     """Standard parameters; of larger robots only a factor is searched."""
     band_sigmas: float = 4.0
     """Standard deviations by which the widest cut-offs and the chosen ones may disagree."""
     folds: int = 8
-    """Of the cross-validation."""
+    """Folds into which blocks of time are dealt for the cross-validated error."""
     min_singular_share: float = 1e-8
     """Share of the largest singular value, columns scaled: less is no direction."""
     max_reweightings: int = 200
@@ -193,13 +193,14 @@ class Thresholds:
     min_known_share: float = 0.01
     """Share of a known quantity: a load is weighed to this."""
     max_weight_iterations: int = 500
-    """Of the joint weights."""
+    """Iterations by which the weights of the joints must converge; else a warning is given."""
     max_passes: int = 3
     """Over long logs: a pass may show what the windows did not."""
     sigma_tolerance: float = 1e-6
     """Relative: a sigma is the root of a variance saved with all digits."""
     symmetry_tolerance: float = 1e-9
-    """Of a correlation."""
+    """Difference of a saved correlation from that with rows and columns exchanged, above which the
+    covariance is refused as not symmetric."""
     min_eigenvalue: float = -1e-6
     """Of saved correlations: rounding of singular ones."""
     max_interval_ratio: float = 2.0
@@ -229,13 +230,13 @@ class Thresholds:
     standstill_share: float = 0.02
     """Share of the top speed of the fastest joint of a unit below which a joint stands."""
     top_speed_quantile: float = 0.98
-    """Quantile of the speeds that is the top speed."""
+    """Quantile of the absolute speeds of a joint that is taken as its top speed."""
     sampled_points: int = 60
     """At which a torque is compared with known functions."""
     sampled_range: float = 1.5
     """rad or m, to both sides."""
     min_rows_per_column: int = 3
-    """Of step 1."""
+    """Rows for every column below which step 1 of the two-step method identifies no joint."""
     whole_weight: float = 1.0 - 1e-9
     """Share of the weights of a row inside a piece."""
     max_correlation: float = 1.0 - 1e-6
@@ -255,7 +256,8 @@ class Thresholds:
     pendulum_poses: int = 40
     """At which gravity and inertia are evaluated."""
     reported_error_ratio: float = 1.1
-    """Ratio of errors that is reported."""
+    """Fit error of the nearest consistent parameters over that of the fit, from which on it is
+    reported."""
     good_error: float = 0.15
     """Cross-validated error of a joint that is good."""
     max_block_error: float = 0.3

@@ -11,15 +11,16 @@ class Thresholds:
     """Share of random postures; links that are too near in more are so by their shapes. No
     study."""
     contact_postures: int = 500
-    """Random postures of that test."""
+    """Random postures within the limits at which links that are too near by their shapes are
+    found."""
     clearance_samples: int = 1500
     """Samples of a motion between which intervals are halved."""
     clearance_tolerance: float = 2e-3
     """Of the median radius, to which the least distance is found."""
     max_halvings: int = 20
-    """Rounds of halved intervals."""
+    """Most rounds in which intervals of time are halved to find the least distance of links."""
     max_clearance_samples: int = 200_000
-    """Samples. Bounds the time."""
+    """Samples above which no more intervals are halved. Bounds the time."""
     rest_speed: float = 1e-7
     """Of the top speed: dry friction alone remains of what speeds cause."""
     difference_step: float = 1e-5
@@ -55,7 +56,7 @@ class Thresholds:
     sample_digits: int = 13
     """Digits after the point: rest is 0, not its rounding."""
     picture_samples: int = 800
-    """Samples of a picture."""
+    """Samples of a motion in its picture."""
     random_motions: int = 50
     """Random motions that the result is compared with; the best are improved."""
     stages: tuple[tuple[float, float, int], ...] = (
@@ -65,7 +66,7 @@ class Thresholds:
     )
     """Height of the barrier, softness of dry friction, steps at most. No study."""
     criterion_tolerance: float = 5e-4
-    """Change of the criterion in ten steps."""
+    """Least fall of the criterion in ten steps; a search that gains less ends."""
     samples_per_wave_in_loops: int = 16
     """Samples per period of the highest harmonic where loops are closed for each."""
     check_refinement: int = 10
@@ -77,7 +78,7 @@ class Thresholds:
     max_retreats: int = 20
     """Steps of a tenth towards rest where smooth dry friction exceeds a limit of torque."""
     random_share: float = 0.95
-    """Of the limits, of random motions."""
+    """Share of the limits that a random motion uses."""
     discrimination_generations: int = 150
     """Generations of evolution. Bounds the time; no study."""
     first_step: float = 0.15
@@ -85,17 +86,17 @@ class Thresholds:
     grid_entries: int = 5
     """Nonlinear parameters of an effect that are tried, spread over its grid."""
     rounding_share: float = 1e-14
-    """Share of a column that is rounding."""
+    """Share of a column up to which what is left of it is rounding."""
     max_subsets: int = 20_000
     """Subsets that are compared one by one; of more, the best is built up and exchanged."""
     rest_postures: int = 200
-    """Random postures to rest in."""
+    """Random postures among which one to rest in is looked for where the middle exceeds a limit."""
     rest_generations: int = 40
     """Generations of evolution from the best of them."""
     max_rest_offset: float = 0.9
     """Of the half ranges: distance of a rest posture from their middle."""
     size_halvings: int = 5
-    """Halvings of the size of a motion within limits."""
+    """Bisections by which a motion is enlarged after it was halved until it kept the limits."""
 
 
 THRESHOLDS = Thresholds()

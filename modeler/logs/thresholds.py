@@ -9,9 +9,9 @@ class Thresholds:
 
     # arrays
     max_listed_names: int = 8
-    """Names in a note."""
+    """Names of arrays that a note lists; of more, the count of the rest."""
     max_struct_depth: int = 20
-    """Structs in structs."""
+    """Structs and lists inside each other below which values are not read."""
     max_deflate_ratio: int = 1032
     """Bytes that zlib unpacks from one at most (RFC 1951: 258 from 2 bits)."""
     max_filter_bytes: int = 64
@@ -20,19 +20,19 @@ class Thresholds:
     min_messages: int = 10
     """Messages of a topic that may be the clock, if any has so many."""
     max_header_bytes: int = 4096
-    """Of a record of a bag."""
+    """Bytes of the header of a record of a .bag file that are read."""
     # blocks
     sampled_lines: int = 200
     """By whose length the rows of a file are counted."""
     bytes_per_cell: int = 150
     """Of a cell in memory: as read, and as text. Measured with python-calamine."""
     min_sheet_rows: int = 2
-    """Rows of a table with names."""
+    """Rows that a sheet must have to be a table: names and numbers."""
     # datasets
     max_parent_folders: int = 4
     """data/chunk-000/ and what may stand between a file and its dataset."""
     max_list_entries: int = 256
-    """Entries of a list that are columns."""
+    """Entries of a list that become columns; a longer list is left out."""
     # dialect
     sampled_bytes: int = 2**16
     """By which the dialect of a file is chosen."""
@@ -74,7 +74,7 @@ class Thresholds:
     """Steps between two marks that are one. No study."""
     # log_table
     max_listed_units: int = 6
-    """Units that a message lists."""
+    """Units that are not understood that a message lists."""
     # mapping
     max_unit_decades: int = 100
     """That no unit is away from SI."""

@@ -104,7 +104,7 @@ class Thresholds:
     min_single_stay: int = 20
     """Rows of one stay that shows a clip by itself; else two stays are needed; no study."""
     max_welch_samples: int = 1024
-    """Samples of one Welch window."""
+    """Samples of one Welch window at most; it is a quarter of the longest segment."""
     max_lag: float = 2.0
     """Seconds, longest lag of the autocorrelation."""
     uncorrelated_below: float = 0.2
@@ -133,11 +133,11 @@ class Thresholds:
     band_window: float = 4.0
     """Seconds of a window of a band spectrum."""
     bands_per_octave: int = 3
-    """Bands per octave."""
+    """Bands per octave in which the power of a spectrum is averaged."""
     min_share_t_ratio: float = 2.0
     """Share over its standard error that is significant."""
     fold_count: int = 8
-    """Folds of the cross-validation."""
+    """Folds of the cross-validation: parts of equal length into which each log is cut."""
     share_parts: int = 40
     """Parts of the rows from which the standard error of a share comes; no study."""
     sum_knots: int = 7

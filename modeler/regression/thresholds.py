@@ -26,7 +26,7 @@ class Thresholds:
     scanned_disagreement: float = 0.3
     """Disagreement from which on delays are scanned."""
     delay_scan_step: float = 5e-3
-    """s."""
+    """s between the delays that are tried one by one where small ones do not explain the data."""
     contradiction_sigmas: float = 8.0
     """Robust standard deviations of a contradicted derivative, and"""
     contradiction_share: float = 0.25
@@ -92,7 +92,7 @@ class Thresholds:
     min_motion_share: float = 0.01
     """Rms position over that of the joint that moves most."""
     steps_per_octave: int = 6
-    """Of the energy per octave."""
+    """Points per octave at which the energy per octave of a spectrum is evaluated."""
     min_ringing_frequency: float = 30.0
     """Hz: below, it is motion."""
     ringing_gap: float = 4.0
@@ -100,15 +100,16 @@ class Thresholds:
     min_motion_energy: float = 1e-3
     """Of the ringing: below, the robot only shakes."""
     max_gap_energy: float = 0.01
-    """Of the motion."""
+    """Energy between the motion and ringing, over that of the motion, below which ringing stands
+    apart."""
     min_ringing_energy: float = 0.01
-    """Of the motion."""
+    """Energy above that gap over that of the motion, above which it is ringing."""
     complete_weight: float = 0.95
     """Share of the weights of a row on usable samples, of a whole row."""
     min_parallel_bands: float = 2.0
     """Bands of the motion that a parallel filter leaves, and"""
     min_parallel_cutoff: float = 0.5
-    """Hz."""
+    """Hz that it passes at least."""
     max_chatter_ratio: float = 4.0
     """High-frequency content of the predicted torque over the measured one; docs/studies."""
     min_coherence: float = 0.5
@@ -124,7 +125,7 @@ class Thresholds:
     search_samples: int = 2**15
     """Of the logs, by which cut-offs are chosen."""
     min_residual_share: float = 1e-6
-    """Of a torque's rms."""
+    """Share of a joint's rms torque that bounds its residual from below in the joint weights."""
     weight_iterations: int = 4
     """Fits in which joint weights converge."""
     min_singular_share: float = 1e-8
@@ -132,7 +133,8 @@ class Thresholds:
     inertia_postures: int = 50
     """At which the inertia matrix is evaluated."""
     min_curvature_rows: int = 10
-    """Of a joint."""
+    """Rows of a joint, usable with both neighbours, below which second differences are not
+    compared."""
     min_torque_noise_share: float = 0.1
     """Of the residual's variance that is the torque's own noise."""
     cutoff_tolerance: float = 0.03
@@ -150,7 +152,7 @@ class Thresholds:
     catch_up_share: float = 0.5
     """To which a jump makes up for frozen samples or lost rows."""
     turn_tolerance: float = 1e-3
-    """Of a turn: rounding of a whole one."""
+    """Share of a turn by which a jump may miss a whole turn in any log: its rounding."""
     late_steps: float = 2.0
     """Median steps: across a longer one, a joint may move anywhere."""
     jerk_samples: int = 10
@@ -158,17 +160,18 @@ class Thresholds:
     jump_samples: int = 3
     """To both sides of a jump, over which that speed would carry it."""
     max_jump_share: float = 2e-2
-    """Of a joint's steps."""
+    """Share of a joint's steps that may be jumps of its encoder."""
     max_repair_ratio: float = 0.95
     """Held-out error of a repaired log over that as logged; false claims have 0.997."""
     max_value: float = 1e12
     """SI; larger values are damage."""
     min_ringing_coherence: float = 0.5
-    """Of torque and position."""
+    """Coherence of torque and position at its frequency above which ringing is that of the
+    robot."""
     parallel_bands: float = 4.0
     """Bands of the motion of the widest parallel filter, and"""
     min_widest_parallel: float = 5.0
-    """Hz."""
+    """Hz that it passes at least."""
     min_closed_share: float = 0.1
     """Of the samples: fewer are of another machine or in other units."""
     max_plain_step: float = 0.2

@@ -16,9 +16,9 @@ class Thresholds:
     min_webgl_points: int = 5000
     """Points from which the graphics processor draws them."""
     max_name_bytes: int = 120
-    """Bytes of a file name."""
+    """Bytes to which the name of an incoming file is shortened."""
     spare_disk_bytes: int = 1_048_576
-    """Bytes of the disk that stay free."""
+    """Bytes of the disk that stay free when a file comes in."""
     max_menu_columns: int = 400
     """Columns that a menu lists; others are typed."""
     curve_points: int = 1500
@@ -42,7 +42,7 @@ class Thresholds:
     max_sheets: int = 60
     """Pages in frames that are kept."""
     max_downloads: int = 200
-    """Downloads that are kept."""
+    """Downloads whose addresses are kept; the oldest ones end."""
     held_out_share: float = 0.3
     """Share of the only log that is held out by default; a convention."""
     cached_results: int = 6

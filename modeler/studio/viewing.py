@@ -468,7 +468,7 @@ def torque_picture(
     below: list[Series] = []
     for k, model in enumerate(models):
         style = Style(_OF_MODELS[k % len(_OF_MODELS)], width=1.4, opacity=0.9)
-        p, name = _compare_model(model, logs).prediction, _format_model_name(model)
+        p, name = _compare_model(model, logs).prediction, f"model {Path(model).stem}"
         model_time = concatenate_time(p)[0]  # rows of another model may be others
         kept_rows, left = (
             _select_between(model_time, start, end),
@@ -536,7 +536,7 @@ def residual_picture(
         p, j = model_on_logs.prediction, _find_joint(model_on_logs.prediction, joint)
         x, label = _read_channel(model_on_logs, j, channel)
         e, rows = validation.compute_residual(p)[:, j], p.used[:, j] & np.isfinite(x)
-        name = f"{_format_model_name(model)}: " if len(models) > 1 else ""
+        name = f"{f'model {Path(model).stem}'}: " if len(models) > 1 else ""
         for run, log in enumerate(p.logs) if by_log else [(-1, "")]:
             log_rows = rows & (p.run == run) if by_log else rows
             parts.append((name + log, x[log_rows], e[log_rows]))
@@ -698,7 +698,3 @@ def _load_model(place: str) -> tuple[IdentifiedModel, CompiledModel]:
         return model, workflow.compile(model)
 
     return _cache_result("model", _read_state(place), load_and_compile)
-
-
-def _format_model_name(model: str) -> str:
-    return f"model {Path(model).stem}"

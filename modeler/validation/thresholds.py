@@ -44,7 +44,7 @@ class Thresholds:
     followed_windows: float = 5.0
     """Windows that a start is followed for the horizon; no study."""
     max_windows: int = 100
-    """Windows that are simulated; no study."""
+    """Windows that are simulated; of more, as many evenly spread over the logs; no study."""
     max_whole_seconds: float = 60.0
     """Seconds of a log that are simulated from its start; no study."""
     max_distance_ranges: float = 10.0
@@ -60,7 +60,7 @@ class Thresholds:
     max_blocks: int = 24
     """Blocks of time: residuals are uncorrelated between them."""
     min_block_seconds: float = 1.0
-    """Seconds of a block; no study."""
+    """Seconds of the shortest block of time in which models are compared; no study."""
     min_blocks: int = 6
     """Blocks below which no model is significantly better."""
     min_error_change: float = 0.01

@@ -8,9 +8,9 @@ class Thresholds:
     """Holds all limits, tolerances and counts of the package."""
 
     max_bins: int = 40
-    """Bins of an axis."""
+    """Bins at most along the axis of a picture of the evidence for an effect."""
     min_bin_rows: int = 8
-    """Rows of a bin; no study."""
+    """Rows below which a bin is joined with the next; no study."""
     min_bin_blocks: int = 4
     """Blocks of time in a bin: fewer give no standard error."""
     min_wild_deviations: float = 8.0
@@ -26,7 +26,7 @@ class Thresholds:
     axis_padding: float = 0.08
     """Padding of an axis on either side, of its range."""
     max_dots: int = 1500
-    """Dots of a cloud of rows."""
+    """Dots at which a cloud of rows is thinned."""
     torque_margin: float = 1.5
     """Seconds on either side of the worst window that are drawn."""
     reversal_margin: float = 0.5
@@ -36,15 +36,15 @@ class Thresholds:
     single_precision_share: float = 1e-06
     """Share of the x range that single precision may miss: less than a pixel."""
     max_bars: int = 40
-    """Bars of a chart of parameters."""
+    """Parameters that a chart of standard deviations shows."""
     min_correlation: float = 0.95
     """Correlation of two estimates from which the pair is reported; no study."""
     max_pairs: int = 12
-    """Pairs that are reported."""
+    """Pairs of strongly correlated estimates that are reported."""
     max_findings: int = 12
-    """Findings that are drawn."""
+    """Findings of a fleet that get a section with a picture."""
     max_map_machines: int = 24
-    """Machines of one map."""
+    """Machines that one map of a fleet shows; more get further maps."""
     darkest_sigmas: float = 10.0
     """Sigmas at which cells are darkest."""
     full_bar_percent: float = 30.0
@@ -66,7 +66,7 @@ class Thresholds:
     newton_tolerance: float = 1e-13
     """Residual at which Newton's method ends: rounding."""
     newton_iterations: int = 100
-    """Newton steps; no study."""
+    """Newton steps by which the loops of a drawn robot must be closed; no study."""
     max_newton_step: float = 0.3
     """Longest Newton step, rad or robot sizes; no study."""
     min_closure_pivot: float = 1e-09
@@ -75,7 +75,7 @@ class Thresholds:
     """Singular value over the largest below which a joint is loose: a residual of 1e-13 leaves its
     square root."""
     complex_step: float = 1e-30
-    """Imaginary step of derivatives."""
+    """Imaginary step of the complex-step derivatives of the loop residuals."""
 
 
 THRESHOLDS = Thresholds()

@@ -97,7 +97,7 @@ def test_a_load_that_makes_no_sense_is_refused(arm, capsys, words, message):
 
 
 MISTAKES = {
-    "": "method tls needs a log with a load .* add --payload-log LOG --payload-mass KG",
+    "": "method tls needs a log with a load .* give --payload-log LOG --payload-mass KG",
     "--payload-log loaded.parquet": "method tls needs the mass of the load, .* --payload-mass KG",
     "--payload-log loaded.parquet --payload-mass 0": "mass 0.0 kg; expected above 0",
     "--payload-log torque.parquet --payload-mass 2": "torque.parquet: got tau1, a torque; .* log",

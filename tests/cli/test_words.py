@@ -80,7 +80,8 @@ def test_a_list_is_given_by_repeating_the_option(capsys) -> None:
     ("words", "missing"),
     [("diagnose m.json --holdout b", "LOG"), ("add m.json --out x --holdout b", "EFFECT, LOG"),
      ("diagnose --holdout b", "MODEL, LOG"), ("physical --cad", "ROBOT|MODEL"),
-     ("excite --from a", "ROBOT|MODEL"), ("fit emps --payload-log a --out m", "LOG")],
+     ("excite --from a", "ROBOT|MODEL"), ("fit emps --payload-log a --out m", "LOG"),
+     ("fit emps a", "--out")],
 )  # fmt: skip
 def test_what_is_missing_is_missed(capsys, words: str, missing: str) -> None:
     with pytest.raises(SystemExit) as stop:

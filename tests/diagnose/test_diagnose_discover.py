@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 from modeler.api.improve import add_proposals
-from modeler.diagnosis import equations
+from modeler.diagnosis import proposals
 from modeler.diagnosis.added_model import LogSplit
 from modeler.diagnosis.diagnosis import diagnose
-from modeler.diagnosis.equations import JointSearch, discover_equations
+from modeler.diagnosis.equations import JointSearch
 from modeler.diagnosis.expressions import Factor, Formula, derive_parameter_unit, list_factors
+from modeler.diagnosis.proposals import discover_equations
 from modeler.diagnosis.result import Diagnosis, EquationProposal
 from modeler.diagnosis.signals import SignalReference
 from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state
@@ -166,9 +167,9 @@ def test_a_place_of_another_joint_is_found(case: Case) -> None:
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_the_least_held_out_error_stands_first(monkeypatch: pytest.MonkeyPatch) -> None:
     """In runs that are long enough to be sure of it."""
-    monkeypatch.setattr(
-        equations, "_compute_total_cost", lambda search, item: -item.cost
-    )  # the worst
+    monkeypatch.setattr(  # the worst
+        proposals, "_compute_total_cost", lambda search, item: -item.cost
+    )
     search = demonstration(robot="two-link").found(churning).search
     every = discover_equations(search, (), None)[1].proposals
     assert len(every) > 1, "several are offered"
