@@ -73,7 +73,7 @@ def test_the_values_of_the_file_are_compared_before_any_fit(folder, capsys) -> N
     assert main(words) == 0
     both = json.loads(Path("both.json").read_text())
     assert both["relative_error"] == pytest.approx(before["relative_error"], rel=0.05)
-    assert "arm.model.json predicts joints 1 and 2 best" in capsys.readouterr().out
+    assert "arm.model.json predicts joints 1 and 2 significantly better." in capsys.readouterr().out
 
 
 @pytest.mark.rotating("long tests of cli")
