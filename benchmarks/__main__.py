@@ -16,7 +16,7 @@ from benchmarks.markdown import markdown
 
 
 def main(words: list[str] | None = None) -> int:
-    """Measure what is asked for; the exit status."""
+    """Measure what is requested; the exit status."""
     asked = _parser().parse_args(words)
     if asked.markdown:
         report = json.loads(Path(asked.markdown).read_text(encoding="utf-8"))
@@ -36,7 +36,7 @@ def main(words: list[str] | None = None) -> int:
 
 
 def measured(lines: list[Line], quick: bool, place: Path | None = None) -> dict[str, Any]:
-    """The report: machine, values, and why some are missing; tells each as it comes.
+    """The report: machine, values, and why some are missing; shows each as it comes.
 
     It is written anew after every line, so what is there is kept where a run is ended early.
     """
@@ -85,7 +85,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--only", metavar="KEY", nargs="+", default=[], help="lines with such a key (start, or *)"
     )
-    parser.add_argument("--quick", action="store_true", help="a tenth of the work, less sure")
+    parser.add_argument("--quick", action="store_true", help="a tenth of the work, less accurate")
     parser.add_argument("--list", action="store_true", help="what there is to measure, and leave")
     parser.add_argument("--markdown", metavar="FILE", help="print a table of such a JSON file")
     return parser

@@ -80,10 +80,10 @@ def main(first: int, count: int) -> None:
             if n:
                 near += least < MARGIN - 1e-6 or motion.closest_approach.bound > least + 1e-6
         if (k + 1) % 10 == 0:
-            print(f"{k + 1}: {hits}, nearer than told {near}", flush=True)
+            print(f"{k + 1}: {hits}, nearer than stated {near}", flush=True)
     print(
         f"{count} motions: meet in {hits[1]}; without clearance in {hits[0]} of every fourth; "
-        f"nearer than {MARGIN:g} m or than told: {near}; cpu seconds {cost[0]:.0f}, {cost[1]:.0f}"
+        f"nearer than {MARGIN:g} m or than stated: {near}; cpu seconds {cost[0]:.0f}, {cost[1]:.0f}"
     )
     for name, (free, clear) in conditions.items():
         print(f"{name}: median condition number {np.median(free):.4g}, {np.median(clear):.4g}")

@@ -27,7 +27,7 @@ TOLERANCE = 1e-9
 ROUNDING = 1e-13
 """What is smaller than this stands for zero: residues of identities."""
 MOST = 30
-"""Differences that are told of each answer."""
+"""Differences that are reported about each answer."""
 TIMED = ("seconds", "version", "created", "path", "model", "log", "logs", "file", "folder")
 """What runs of equal programs differ in."""
 

@@ -17,7 +17,7 @@ class Key:
         name: dotted, e.g. "scalar_vs_pinocchio_gcc.puma560"; never renamed.
         unit: "x" for ratios.
         meaning: one sentence.
-        must: what it has to reach; None if it is told only.
+        must: what it has to reach; None if it is reported only.
         aim: what would be best.
         better: which way is better.
     """

@@ -58,7 +58,7 @@ def _page(name: str, found: argparse.ArgumentParser) -> str:
 
 
 def estimators() -> str:
-    """What the command tells, as a table."""
+    """What the command shows, as a table."""
     head = ("method", "is", "law", "source", "do not use it", "assumes")
     told = [(a.title, a.law, a.source, a.avoid, a.motion) for a in ABOUT.values()]
     named = zip(ABOUT, told, strict=True)

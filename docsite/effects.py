@@ -241,7 +241,7 @@ def _page(effect: Effect, shown: str, apart: str, shapes: Mapping[str, float]) -
         f"**Range.** {cell(effect.range)}.", "", f"**Source.** {cell(effect.source)}.", "",
         "## What it leaves in the residual", "",
         f"Look for: {cell(effect.signature)}.", "", shown, "",
-        "## How to tell it from its look-alikes", "", f"{cell(_sentence(effect.look_alikes))}", "",
+        "## Confounders", "", f"{cell(_sentence(effect.look_alikes))}", "",
         apart, "",
         "## In a robot file", "", _written(effect, shapes),
     ]  # fmt: skip
@@ -299,7 +299,7 @@ def _told(found: Diagnosis) -> list[str]:
 
 
 def _apart(effect: Effect, shown: _Shown) -> str:
-    """Ties and rivals in these logs, and the motion that tells the strongest apart."""
+    """Ties and alternatives in these logs, and the motion that distinguishes the strongest."""
     finding = next((f for f in shown.found.effects if f.effect == effect.id), None)
     if finding is None:
         return ""
@@ -311,7 +311,7 @@ def _apart(effect: Effect, shown: _Shown) -> str:
     ][:5]
     parts = []
     if ties:
-        parts += [f"Not told apart by this log: {', '.join(ties)}.", ""]
+        parts += [f"Not distinguished by this log: {', '.join(ties)}.", ""]
     if rivals and shown.found.effects[0] is finding:
         parts += [
             "What others would explain of the variance that it explains here:", "",
@@ -326,7 +326,7 @@ def _apart(effect: Effect, shown: _Shown) -> str:
 
 
 def _between(finding: Finding, shown: _Shown) -> str:
-    """The effect and its strongest rival that a motion can tell from it; empty without one."""
+    """The effect and its strongest distinguishable alternative; empty without one."""
     from modeler.api.motion import build_subject, parse_question
 
     subject = build_subject(shown.model)

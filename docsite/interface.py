@@ -25,7 +25,7 @@ def _stages() -> list[str]:
 
 
 def exported(module_name: str) -> list[tuple[str, str]]:
-    """(name, where it is defined) of the functions and classes that a room offers."""
+    """(name, where it is defined) of the functions and classes that a package offers."""
     module = importlib.import_module(module_name)
     offered = {name: getattr(module, name) for name in getattr(module, "__all__", ())}
     return [

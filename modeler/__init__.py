@@ -10,12 +10,12 @@ All of it is `modeler.api`, whose names are here too. Data flows one way::
     effects -> robot -> derivation -> codegen => C + manifest
             => runtime -> observation -> estimation -> validation -> diagnosis -> robot ...
 
-The rooms before the emitted C derive (sympy, casadi, jinja2); those after it only use numbers.
+The packages before the emitted C derive (sympy, casadi, jinja2); those after it only use numbers.
 A robot names effects of the catalogue; `formulas` stands beside codegen and writes for people;
 `simulation` has physics of its own; `logs` reads what people have, `numerics` has the linear
 algebra of all; `fleet`, `excitation` and `papers` build on them; `report` shows results, `api` and
-`cli` put the steps in a row. docs/explanation/architecture.md shows the house.
-This module imports nothing before a name of the API is asked for, so that the numeric stages never
+`cli` put the steps in a row. docs/explanation/architecture.md shows the architecture.
+This module imports nothing before a name of the API is requested, so that the numeric stages never
 load the symbolic ones.
 """
 
@@ -29,7 +29,7 @@ _ROOMS = (
 
 
 def __getattr__(name: str) -> object:
-    """A name of `modeler.api`; rooms are imported by their own names."""
+    """A name of `modeler.api`; packages are imported by their own names."""
     if name in _ROOMS or name.startswith("_"):
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from modeler import api

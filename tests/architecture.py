@@ -1,4 +1,4 @@
-"""The house rules as a program: reads the syntax trees of a package, gives what breaks a rule."""
+"""The rules of the architecture: reads the syntax trees of a package, yields what breaks a rule."""
 
 import ast
 import sys
@@ -12,10 +12,10 @@ SOUTH = (
     "excitation",
 )  # fmt: skip
 
-# Which rooms a room may import, besides itself. The south knows a robot by its manifest only, and
-# of the north the catalogue of effects, which imports nothing but the core: columns of an effect
-# are evaluated from the same definition that is emitted. The simulator shares no dynamics with what
-# it is there to test.
+# Which packages a package may import, besides itself. The south knows a robot by its manifest only,
+# and of the north the catalogue of effects, which imports nothing but the core: columns of an
+# effect are evaluated from the same definition that is emitted. The simulator shares no dynamics
+# with what it is there to test.
 STAGES: dict[str, set[str]] = {
     "core": set(),
     **{stage: {"core", *NORTH[:i]} for i, stage in enumerate(NORTH)},
@@ -36,7 +36,7 @@ STAGES: dict[str, set[str]] = {
 # An effect goes round: from the diagnosis into the robot description, and from there all the way.
 ROUND = {"diagnosis/add.py": {"robot", "codegen"}, "diagnosis/added_model.py": {"robot"}}
 
-# Which packages of others a room may import, besides the standard library.
+# Which packages of others a package may import, besides the standard library.
 PACKAGES: dict[str, set[str]] = {
     "core": {"numpy", "mpmath", "pandas", "distributed"},
     "numerics": {"numpy", "scipy", "clarabel"},
@@ -85,10 +85,12 @@ MOST_MODULES = 323  # merged along their only importers
 MOST_CODE_LINES = 78737
 MOST_CIRCLES = 0
 
-# Rooms without a face: their modules are collections by subject, each imported by its own name.
+# Packages without a public interface: their modules are collections by subject, each imported by
+# its own name.
 COLLECTIONS = {"core", "numerics"}
 
-# The face of the API is what users were promised; the command line and the studio are other skins.
+# The public interface of the API is what users were promised; the command line and the studio are
+# other skins.
 SKINS = (("cli", "api"), ("studio", "api"))
 
 NAMES_THAT_SAY_NOTHING = {"utils", "util", "helpers", "misc", "common", "tools"}
@@ -157,7 +159,7 @@ def _imports(relative: str, text: str) -> Iterator[tuple[int, str]]:
         if top == "":
             yield line, "relative import; write it absolute"
         elif not stage:
-            if name != "modeler.api":  # in a function, when a name is asked for
+            if name != "modeler.api":  # in a function, when a name is requested
                 yield line, f"imports {name}; the package itself imports nothing but modeler.api"
         elif top == "modeler":
             other = rest.split(".")[0]
@@ -168,7 +170,7 @@ def _imports(relative: str, text: str) -> Iterator[tuple[int, str]]:
                 yield line, f"imports {name}; what others may use is in {face}"
         elif top == "lazy_loader":
             if Path(relative).name != "__init__.py" and stage != "logs":  # which loads Arrow so
-                yield line, "imports lazy_loader; only a room's __init__.py and logs may"
+                yield line, "imports lazy_loader; only a package's __init__.py and logs may"
         elif top not in sys.stdlib_module_names:
             if top not in PACKAGES[stage]:
                 yield line, f"imports {name}; {stage} may import {_listed(PACKAGES[stage])}"
@@ -255,7 +257,7 @@ def circles(package: Path) -> list[set[str]]:
 
 
 def _exported(package: Path) -> dict[str, set[str]]:
-    """The modules behind every name of a room's face, and behind the room itself."""
+    """The modules behind every name of a package's interface, and behind the package itself."""
     behind: dict[str, set[str]] = {}
     for path in package.glob("*/__init__.pyi"):
         room = f"{package.name}.{path.parent.name}"

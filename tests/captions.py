@@ -13,7 +13,7 @@ def colours_said(picture: Picture) -> set[str]:
 
 
 def colours_drawn(picture: Picture) -> set[str]:
-    """Of series, of shaded stretches, of the interval that a panel points out."""
+    """Of series, of shaded segments, of the interval that a panel points out."""
     panels = [panel for row in picture.panels for panel in row]
     drawn = {s.style.color for panel in panels for s in panel.series if not isinstance(s, Heat)}
     drawn |= {span.color for panel in panels for span in panel.spans}

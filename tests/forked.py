@@ -92,7 +92,7 @@ def serve() -> None:
         parse_words(command.split())[0].load()
     for name in PACKAGES:
         importlib.import_module(name)
-    with contextlib.redirect_stdout(None):  # what sympy remembers of a first derivation
+    with contextlib.redirect_stdout(None):  # what sympy caches of a first derivation
         main(["derive", "two-link", "--no-terms"])
     gc.collect()
     gc.freeze()  # pages that no child looks at stay shared

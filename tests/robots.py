@@ -1,6 +1,6 @@
 """The robots that every test of every stage runs over: a new built-in is tested by being there.
 
-Told by the text of their files: nothing is derived or read when a test module is imported.
+Known by the text of their files: nothing is derived or read when a test module is imported.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""Data flows one way, and other house rules, held to by every module of the package."""
+"""Data flows one way, and other rules of the architecture, for every module of the package."""
 
 import ast
 import re
@@ -34,7 +34,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "modeler"
 
 
-def test_the_house_keeps_its_rules() -> None:
+def test_the_package_follows_the_architecture_rules() -> None:
     assert len(modules(PACKAGE)) > 100  # it is the package that was read
     assert not (breaks := broken_rules(PACKAGE)), "\n".join(["", *breaks])
 
@@ -49,7 +49,7 @@ def test_every_stage_has_its_rules_and_every_rule_its_stage() -> None:
             assert stage not in STAGES[earlier], f"{stage} and {earlier} may import each other"
 
 
-def test_the_house_does_not_grow() -> None:
+def test_code_lines_and_modules_stay_within_their_limits() -> None:
     """Whoever raises one of these says why, beside the number."""
     files = modules(PACKAGE)
     assert len({path.parent for path in files} - {PACKAGE}) <= MOST_PACKAGES
@@ -59,12 +59,12 @@ def test_the_house_does_not_grow() -> None:
 
 
 def test_circles_are_seen(tmp_path: Path) -> None:
-    house = tmp_path / "modeler" / "core"
-    house.mkdir(parents=True)
-    (house / "a.py").write_text("def f():\n    from modeler.core.b import x\n")
-    (house / "b.py").write_text("import modeler.core.c\n\nx = 1\n")
-    (house / "c.py").write_text('"""Two\nlines."""\n\nfrom modeler.core import a  # late\n')
-    (house / "d.py").write_text("from modeler.core.a import f\n")
+    core = tmp_path / "modeler" / "core"
+    core.mkdir(parents=True)
+    (core / "a.py").write_text("def f():\n    from modeler.core.b import x\n")
+    (core / "b.py").write_text("import modeler.core.c\n\nx = 1\n")
+    (core / "c.py").write_text('"""Two\nlines."""\n\nfrom modeler.core import a  # late\n')
+    (core / "d.py").write_text("from modeler.core.a import f\n")
     assert circles(tmp_path / "modeler") == [{f"modeler.core.{name}" for name in "abc"}]
     assert code_lines(tmp_path / "modeler") == 6
 
@@ -108,7 +108,7 @@ PLANTED = [
     ("regression/a.py", "from modeler import derivation", "imports modeler.derivation"),
     ("estimation/a.py", "from modeler.runtime.bind import X",
      "what others may use is in modeler/runtime/__init__.pyi"),
-    ("core/a.py", "import lazy_loader", "only a room's __init__.py"),
+    ("core/a.py", "import lazy_loader", "only a package's __init__.py"),
     ("derivation/a.py", "from modeler.codegen import X", "imports modeler.codegen"),
     ("regression/a.py", "from modeler import estimation", "imports modeler.estimation"),
     ("core/a.py", "import modeler.effects", "core may import nothing"),

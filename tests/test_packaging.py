@@ -130,7 +130,7 @@ def test_every_dependency_is_pinned_to_a_version_it_allows(
 
 
 NEVER_INSTALLED = ("cupy-cuda12x",)
-"""Pinned, but not installed where tests run, nor what it brings: it wants a graphics processor."""
+"""Pinned, but not installed where tests run, nor what it brings: it needs a graphics processor."""
 
 
 def test_what_dependencies_need_is_pinned(settings: dict, pins: dict[str, str]) -> None:

@@ -216,7 +216,7 @@ model.to_c("out")
 again = md.load(model.save("arm.json"))
 assert again.error("tue.parquet") == model.error("tue.parquet") < 0.02
 assert again.resid is not None
-print("told")
+print("reported")
 """
 
 

@@ -137,8 +137,8 @@ def compare_logs(
         logs: that it predicts.
         compiled: its robot.
         mapping: as of `read_logs`.
-        progress: is told the share of long logs that is done.
-        tell: is told why long logs are read whole, if they must be.
+        progress: receives the share of long logs that is done.
+        tell: receives why long logs are read whole, if they must be.
     """
     if are_long(logs):
         try:

@@ -228,7 +228,7 @@ def _export_equations(
 
 
 def _build_equations(robot: Robot) -> Equations:
-    """Its parameters, and torques at random motion around home, which are asked for rarely."""
+    """Its parameters, and torques at random motion around home, which are requested rarely."""
     emitted = generate(derive(robot))
 
     def compute_torques(beta: np.ndarray) -> np.ndarray:
@@ -256,7 +256,7 @@ def _build_torque_function(model: IdentifiedModel) -> Torques | None:
     names = tuple(joint.name for joint in model.spec.joints)
 
     def compute_torques(beta: np.ndarray) -> tuple[np.ndarray, tuple[str, ...]]:
-        if not rows:  # read when they are first asked for
+        if not rows:  # read when they are first requested
             observation = observe(compile(model), logs, model.processing)
             rows.append(lambda each: np.where(observation.used, observation.predict(each), 0.0))
         return rows[0](beta), names

@@ -440,7 +440,7 @@ def fit(
         DataError: the derivation, the C and the observation are not of one robot; or see
             `identify`.
     """
-    if method == GAIN_METHOD:  # for whoever is not told by a type checker
+    if method == GAIN_METHOD:  # for callers without a type checker
         raise DataError(f"fit: method {method} reads the logs itself; call fit_gains")
     names = tuple(base.name for base in emitted.spec.base)
     for what, other in (("derivation", derivation.robot.name), ("observation", observation.robot)):
@@ -476,7 +476,7 @@ def fit_gains(
         processing: None: chosen from the logs.
 
     Raises:
-        DataError: logs of torques, rows given twice, or gains that the logs do not tell.
+        DataError: logs of torques, rows given twice, or gains that the logs do not identify.
     """
     compiled = workflow.compile_model(workflow.generate(derivation))
     processing = processing or Processing()
@@ -496,8 +496,8 @@ def _fit_gains(
     """Estimates drive gains, and returns the model and the observation it was fitted to.
 
     The gains are found first. Then the logs are read once more with them, as whoever uses the model
-    will: all that is told of the fit is told of those torques. `check` refuses logs, bare and
-    loaded, that do not belong together; None: those that share rows.
+    will: all that is reported about the fit is reported of those torques. `check` refuses logs,
+    bare and loaded, that do not belong together; None: those that share rows.
     """
     unused = estimation.describe_unused_prior(compiled.spec, f"method {GAIN_METHOD}", _UNUSED)
 
@@ -561,7 +561,7 @@ def fit_long(
         sources: of the logs.
         method: "weighted" or "ordinary".
         processing: None: automatic.
-        progress: is told the share of the rows that are done.
+        progress: receives the share of the rows that are done.
         reducer: of one log; None: threads of this process. See `make_worker_reducer`.
 
     Raises:

@@ -152,8 +152,8 @@ def add(
             may have too.
 
     Raises:
-        DataError: no such effect, one that is there already, cannot be told from the logs, or
-            cannot be added.
+        DataError: no such effect, one that is there already, cannot be distinguished from the logs,
+            or cannot be added.
     """
     model = define_shared_effect(model, read_shared_effects(model, effects_from), effect)
     compiled, log_sets = read_log_sets(model, logs, holdout, mapping)
@@ -309,7 +309,7 @@ def read_log_sets(
 ) -> tuple[CompiledModel, diagnosis.LogSplit]:
     """Compiles the robot of a model and reads its logs.
 
-    Of long logs stretches where `spread` is true, see `read_logs`.
+    Of long logs segments where `spread` is true, see `read_logs`.
 
     Raises:
         DataError: a log cannot be read, or rows are given twice.

@@ -182,7 +182,7 @@ def _parse_suggested(text: str) -> LogMap:
 
 @dataclass(frozen=True)
 class MappingFit:
-    """What a fit says: relative error, infinite without fit; doubts; if it is usable; its data."""
+    """What a fit says: relative error, infinite without fit; warnings; if usable; its data."""
 
     error: float
     lines: tuple[str, ...] = ()
@@ -196,7 +196,7 @@ def choose_mapping(
     """Chooses between the plain and the guessed mapping by a trial fit.
 
     A guess by range is believed if it halves the error of the log as it stands, or alone is
-    usable; what goes wrong under a guess is never told of the log.
+    usable; what goes wrong under a guess is never reported about the log.
     """
     plain_fit = fit_mapping(plain)
     if guessed is None:
@@ -244,7 +244,7 @@ def read_mapped_log(
 ) -> regression.Log:  # fmt: skip
     """Reads a log, or a time range of it, with a mapping; `where` begins messages.
 
-    With `spread` a log too long to be diagnosed as a whole is read as stretches of it.
+    With `spread` a log too long to be diagnosed as a whole is read as segments of it.
     """
     if not isinstance(place, str | Path):
         return regression.read_log_in_memory(place, spec, names, where)
@@ -294,7 +294,7 @@ def inspect_log(
     compiled: CompiledModel | EmittedModule | None = None,
     mapping: Mapped = (),
 ) -> LogInspection:
-    """Returns the channels, the clock, the gaps and the doubts of a log.
+    """Returns the channels, the clock, the gaps and the warnings of a log.
 
     >>> inspect_log("mon.parquet").table().column("channel")[:3]
     ['time', 'q1', 'q2']

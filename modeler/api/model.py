@@ -65,7 +65,7 @@ class Parameter(ParameterEstimate):
 
     def __repr__(self) -> str:
         if self.sigma is None:
-            return f"{self.name}: set aside, these logs do not tell it"
+            return f"{self.name}: fixed, not identifiable from these logs"
         relation = f"  ({self.relation})" if self.relation else ""
         return f"{self.name} = {self.value:.6g} +- {self.sigma:.2g} {self.unit}{relation}"
 
@@ -160,11 +160,11 @@ class Model(IdentifiedModel):
             verb = "holds" if len(holds) == 2 else "hold"
             others = f" ({', '.join(holds[1:])} {verb} it too)" if holds[1:] else ""
             return (
-                f"the torques tell no value of {name} alone; {one.relation} holds it{others}: ask "
+                f"the torques fix no value of {name} alone; {one.relation} holds it{others}: ask "
                 f'for model["{one.name}"]'
             )
         if name in self.spec.unidentifiable:
-            return f"{name} has no effect on any torque of {self.spec.robot}, so no log tells it"
+            return f"{name} has no effect on any torque of {self.spec.robot}, so no log shows it"
         known = list(self._parameters)
         return f"no such parameter{suggest_name(name, known)}; expected one of {', '.join(known)}"
 
@@ -316,7 +316,7 @@ class Model(IdentifiedModel):
         (1, 'spring')
 
         Args:
-            held_out: logs of other motion, on which errors are told; None: those of `identify`.
+            held_out: logs of other motion, on which errors are reported; None: those of `identify`.
             logs: of the fit; None: they are found again, if they have not changed.
             without: effects that are not looked for, as "backlash" or "spring@2".
             mapping: as of `read_logs`.

@@ -326,8 +326,8 @@ def excite(
 
     Args:
         thing: a robot, or a model: then weighted as its fit, essential parameters only.
-        logs: that there are: the motion adds most to what they tell, and its `gain` says what; all
-            parameters, and criterion "information" unless another one is asked for.
+        logs: that there are: the motion adds most to what they determine, and its `gain` says what;
+            all parameters, and criterion "information" unless another one is requested.
         mapping: whose column of the logs is which, over [log] of the robot file.
         rate: samples of the next log per second.
         limits: joint -> lower, upper, speed, acceleration and, if wanted, torque, SI; in place of

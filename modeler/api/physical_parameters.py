@@ -73,7 +73,7 @@ class PhysicalValues(Result):
     Attributes:
         system: they, and the identified quantities.
         derived: values, sigmas, and from what they follow.
-        doubts: {parameter: why it is not told}.
+        doubts: {parameter: why it is not reported}.
         tested: known parameters against what the others and the fit say, where more are known than
             needed.
     """
@@ -288,7 +288,7 @@ def _summarise_values(values: PhysicalValues) -> str:
     identified_count = len(values.derived.letters) - len(values.doubts)
     first = (
         f"{values.system.robot}: {identified_count} of {len(values.derived.letters)} "
-        "physical parameters told"
+        "physical parameters determined"
     )
     return "\n".join([first, *values.doubts.values()])
 

@@ -1,4 +1,4 @@
-"""What other rooms define and `modeler.api` hands on: the things its functions take and give."""
+"""What other packages define and `modeler.api` hands on: the things its functions take and give."""
 
 from modeler.codegen import Derivation as Derivation
 from modeler.core.errors import FitWarning as FitWarning

@@ -178,7 +178,7 @@ def read_logs(
         logs: of any format of `modeler.logs`.
         mapping: over [log]: a table like it, or texts as `--map` takes them; "auto" among them
             takes the guess of `inspect_log` for what is left open.
-        spread: True if of a log of more than a million rows evenly spread stretches will do.
+        spread: True if of a log of more than a million rows evenly spread segments will do.
     """
     log_list = convert_to_list(logs)
     every = enumerate(zip(log_list, build_log_maps(compiled, log_list, mapping), strict=True))

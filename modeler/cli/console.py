@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from modeler.core.figure import Picture
     from modeler.views import Page
 
-# How much is told beside the results: `--quiet` and `--verbose`.
+# How much is reported beside the results: `--quiet` and `--verbose`.
 
 
 class Verbosity(Enum):
@@ -39,7 +39,7 @@ class Verbosity(Enum):
 _LOUDNESS: ContextVar[Verbosity] = ContextVar("loudness", default=Verbosity.NORMAL)
 
 _FOR_PROGRAMS: ContextVar[bool] = ContextVar("for programs", default=False)
-"""Whether progress is told in lines that a program reads, in place of a bar: `--progress lines`."""
+"""Whether progress is reported in lines for programs, in place of a bar: `--progress lines`."""
 
 
 _PACKAGES = (
@@ -58,7 +58,7 @@ def apply_verbosity(verbosity: Verbosity, for_programs: bool = False) -> Iterato
 
     Args:
         verbosity: how much.
-        for_programs: True: progress as lines, even where little is told.
+        for_programs: True: progress as lines, even where little is reported.
     """
     import warnings
 
@@ -221,7 +221,7 @@ def write_stdout(text: str) -> None:
 
 
 def flush_stdout() -> None:
-    """Writes what is held back; after an error, that is dropped, so that it is told once.
+    """Writes what is held back; after an error, that is dropped, so that it is reported once.
 
     Raises:
         ModelerError: it cannot be written, as on a full disk.
@@ -367,7 +367,7 @@ def _show_bar(title: str, total: float | None) -> Iterator[Callable[[float], Non
 
 @contextmanager
 def _show_progress_lines(title: str, total: float | None) -> Iterator[Callable[[float], None]]:
-    """The same in lines: one at the beginning, then one where there is another percent to tell."""
+    """The same in lines: one at the beginning, then one where there is another percent to show."""
     last_shown = [time.monotonic(), 0.0]
 
     def show_share(share: float) -> None:

@@ -114,7 +114,7 @@ def _allow_breaks(text: str) -> str:
     return re.sub(r"(\*+|\\_|/)", r"\1\\allowbreak{}", escape_latex(text))
 
 
-# What `modeler derive` was asked for besides relations and proof, and what it refuses.
+# What `modeler derive` was requested besides relations and proof, and what it refuses.
 
 
 def check_request(args: argparse.Namespace) -> None:
@@ -137,7 +137,7 @@ def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
     """Refuses what has no meaning for loops.
 
     Raises:
-        ModelerError: coefficients or expanded forms are asked for.
+        ModelerError: coefficients or expanded forms are requested.
     """
     looped = derivation.model.closure is not None
     if looped and (args.terms or args.coefficients_out is not None or args.expanded):
@@ -259,10 +259,10 @@ def compare_with_lagrange(derivation: Derivation, samples: int = 50) -> float:
 def print_closed_forms(
     args: argparse.Namespace, derivation: Derivation, printer: FormulaPrinter
 ) -> Json:
-    """Prints what was asked for; for few joints the coefficients unasked.
+    """Prints what was requested; for few joints the coefficients unasked.
 
     Returns:
-        What is added to the JSON: "closed_form" and "regressor" as asked for.
+        What is added to the JSON: "closed_form" and "regressor" as requested.
     """
     model, base = derivation.model, derivation.base
     if args.nonzero:
@@ -334,7 +334,7 @@ def _print_equation(equation: "formulas.Equation", form: Form, printer: FormulaP
 def _print_coefficients(
     args: argparse.Namespace, derivation: Derivation, printer: FormulaPrinter
 ) -> None:
-    # What was not asked for must not take away what was.
+    # What was not requested must not take away what was.
     unasked = args.terms is None and args.coefficients_out is None
     try:
         table = formulas.coefficients.build_coefficient_table(derivation.model, derivation.base)
@@ -366,7 +366,7 @@ def _print_coefficients(
 
 
 def _describe_coefficients(table: "CoefficientTable") -> list[str]:
-    """How many coefficients, what they tell, and what follows from what."""
+    """How many coefficients, what they determine, and what follows from what."""
     first = [coefficient.function[0] for coefficient in table.coefficients]
     counts = {"PG": first.count("g"), "PJ": first.count("J"), "PS": first.count("S")}
     identifiability = table.identifiability

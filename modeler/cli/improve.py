@@ -40,7 +40,7 @@ _WIDTH = 40  # characters of the longest bar
 
 
 def run_diagnose(args: argparse.Namespace) -> Json:
-    """Prints the verdict, the effects and what cannot be told."""
+    """Prints the verdict, the effects and what cannot be determined."""
     if args.add and not args.discover:
         raise DataError("--add: adds what --discover finds; give both, or neither")
     if args.add is not (args.out is not None):

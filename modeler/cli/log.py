@@ -48,7 +48,7 @@ _WIDEST = 44  # letters of a cell
 
 
 def run_log(args: argparse.Namespace) -> Json:
-    """Prints what the log holds, its doubts, and a [log] to start from."""
+    """Prints what the log holds, its warnings, and a [log] to start from."""
     compiled = described = uncompiled = None
     if args.write:
         if args.robot is None:
@@ -83,7 +83,7 @@ def run_log(args: argparse.Namespace) -> Json:
         if mapping_fit.data_report is not None:
             noise, bands = mapping_fit.data_report.noise, mapping_fit.data_report.bands
             marks = keep_longest([*marks, *mapping_fit.data_report.logs[0].collect_marks()])
-        if stands:  # it fits as it is: a range alone is no doubt
+        if stands:  # it fits as it is: a range alone is no warning
             doubts = [line for line in doubts if line not in inspection.range_warnings]
             inspection = dataclasses.replace(
                 inspection, suggested=inspection.suggested_without_ranges
@@ -133,7 +133,7 @@ def _format_inspection(
     ]
     lines += ["", *(line.rstrip() for line in align_columns(rows, (0, 1, 6))), ""]
     lines += [*noise, *(f"note: {note}" for note in inspection.notes)]
-    lines += [f"doubt: {doubt}" for doubt in doubts] or ["no doubts"]
+    lines += [f"warning: {doubt}" for doubt in doubts] or ["no warnings"]
     if inspection.suggested:
         suggestion_title = (
             "a mapping to start from, a guess: paste it into the robot file, or --map FILE.toml"

@@ -26,7 +26,7 @@ _KINDS = {"mass": "masses", "length": "lengths", "centre": "mass centres", "iner
 
 
 def run_physical(args: argparse.Namespace) -> Json:
-    """Prints what was asked for; what there is to know if nothing was."""
+    """Prints what was requested; what there is to know if nothing was."""
     if args.near is not None and args.known is None:
         raise DataError("--near: chooses between roots that --known leaves; add --known LIST")
     if args.sets is not None and args.sets is not True and args.sets < 1:
@@ -176,7 +176,7 @@ def _print_values(values: PhysicalValues) -> Json:
                 "variance_shares": shares,
             }
         )
-    print_lines(doubts.values(), "not told: ")
+    print_lines(doubts.values(), "not determined: ")
     _print_tested(values.tested)
     return {"parameters": rows, "known_against_fit": [vars(row) for row in values.tested]}
 

@@ -33,7 +33,7 @@ def run_program(words: Sequence[str]) -> int:
     gc.set_threshold(20_000)
     try:
         return _run_words(words, exit_on_interrupt)
-    finally:  # all is done or given up; another interrupt can only spoil how it is told
+    finally:  # all is done or given up; another interrupt can only spoil how it is reported
         if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
             signal.signal(signal.SIGINT, signal.SIG_IGN)
 

@@ -74,7 +74,7 @@ def run_new(args: argparse.Namespace) -> Json:
 
 
 def _describe_robot(robot: Robot, out: Path) -> Json:
-    """What a script is told of a robot file that was written."""
+    """What a script learns of a robot file that was written."""
     joints, loops = ([one.name for one in many] for many in (robot.moving_joints, robot.loops))
     return {"robot": robot.name, "out": str(out), "joints": joints, "loops": loops}
 
@@ -233,7 +233,7 @@ def _format_table(assembly: "HomeModes") -> list[str]:
         f"{_format_values(linkage, modes[0].posture, actuated_joints)}",
         "",
     ]
-    # The joints by which people tell modes apart: the platform's, else the first that follow.
+    # The joints by which people distinguish modes: the platform's, else the first that follow.
     names = [joint.name for joint in linkage.free]
     shown_places = [names.index(name) for name in linkage.robot.platform if name in names]
     shown_places = shown_places or list(linkage.loops.solved)[: THRESHOLDS.listed_joints]

@@ -22,7 +22,7 @@ from modeler.derivation import Expr, Graph, Label
 
 # One operation as C99 text.
 #
-# Texts are combined from the texts of their operands; a level tells where parentheses are needed.
+# Texts are combined from the texts of their operands; a level shows where parentheses are needed.
 # Sums and products keep the order of evaluation of the graph: floating point is not associative.
 
 

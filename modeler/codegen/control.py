@@ -316,7 +316,7 @@ _ROWS = ("base_regressor", "base_regressor_nonzeros", "tree_base_regressor", "tr
 
 
 def select_roles(functions: Sequence[CFunction], only: Sequence[str], robot: str) -> frozenset[str]:
-    """Selects the roles of the functions that stay: those asked for, and what they call.
+    """Selects the roles of the functions that stay: those requested, and what they call.
 
     A role stands for its twin with fitted values too.
 

@@ -280,7 +280,7 @@ def _build_parts(
 
 
 class _LazyFiles(Mapping[str, str]):
-    """Files of a module: its code, and others that are made when one of them is asked for.
+    """Files of a module: its code, and others that are made when one of them is requested.
 
     Who compiles the code in memory does not wait for the numbers of the check.
     """

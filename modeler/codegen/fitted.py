@@ -147,7 +147,7 @@ def format_fitted_texts(
     verdict = f"The fit of this model is {line[:1].lower()}{line[1:]}"
     doubts = [f"Doubt: {doubt}" for doubt in fitted.doubts if doubt not in fitted.verdict]
     warning = "" if fitted.usable else "WARNING. "
-    # Lines of the C table: the value, which it is, its unit, how sure it is.
+    # Lines of the C table: the value, which it is, its unit, its uncertainty.
     places = layout.name_enumerators(spec.prefix, "beta", [base.name for base in spec.base])
     lines, literal = list[str](), OF_PRECISION[spec.precision].format_literal
     for parameter, place in zip(fitted.parameters, places, strict=True):

@@ -1,8 +1,8 @@
 """Names of the temporaries of a function, and the comments between them, from the graph's labels.
 
-A name tells quantity, link and component: `wd3_z`, `f3_MXx` of one unit of MX3, `w3b_x` on the way
+A name shows quantity, link and component: `wd3_z`, `f3_MXx` of one unit of MX3, `w3b_x` on the way
 to w3, `minus_U3_xx` of minus that. Names are unique however their letters are written, as some
-languages do not tell `U3_x` from `u3_x`. What has no label keeps a number: `t7`.
+languages do not distinguish `U3_x` from `u3_x`. What has no label keeps a number: `t7`.
 """
 
 import re
@@ -97,7 +97,7 @@ class Naming:
 
 
 def _find_kind(label: Label) -> str:
-    """Which text of its quantity tells what it is, or what it is a derivative of."""
+    """Which text of its quantity shows what it is, or what it is a derivative of."""
     derived = "d" in label.step and "meaning" in _read_quantities()[label.quantity]
     return "unit" if label.of and not derived else "meaning"
 

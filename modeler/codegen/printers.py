@@ -84,7 +84,7 @@ def _plan_products(spec: ModuleSpec) -> dict[str, Any]:
 # Structured Text (IEC 61131-3) of a robot without loops: its dynamics as function blocks.
 #
 # The statements come from the emitter of the C, in the words of another target. Names do not tell
-# small letters from capital ones and have no two underscores in a row, as the standard wants it.
+# small letters from capital ones and have no two underscores in a row, as the standard needs it.
 
 
 _ROLES = (

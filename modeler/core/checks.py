@@ -1,4 +1,4 @@
-"""Array arguments checked by name at the door: shape, type, finite values."""
+"""Array arguments checked by name at the interface: shape, type, finite values."""
 
 from typing import Any
 

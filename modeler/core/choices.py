@@ -34,7 +34,7 @@ MOST_SAMPLES = 20_000_000
 """Of a simulation: 5.5 hours at 1 kHz, gigabytes of states already."""
 
 SIMULATED: Mapping[str, float] = MappingProxyType(_CHOICES["simulation"])
-"""What a simulation is unless something else is asked for."""
+"""What a simulation is unless something else is requested."""
 
 EFFECTS = tuple(_CHOICES["effects"].split())
 """Ids of the catalogue that a simulated machine may hide, in its order."""
@@ -149,7 +149,7 @@ _EVERY = {
 ABOUT: dict[Method, EstimatorInfo] = {
     cast(Method, name): about for name, about in _EVERY.items() if name in get_args(Method)
 }
-"""By id, in the order in which they are told."""
+"""By id, in the order in which they are reported."""
 
 APART = (_EVERY[GAIN_METHOD], _EVERY[TWO_STEPS])
 """Beside the others: they take other logs."""

@@ -15,7 +15,7 @@ class RobotError(ModelerError):
 
 
 class DataError(ModelerError):
-    """A log is wrong or cannot tell what was asked: file, column, row."""
+    """A log is wrong or cannot show what was asked: file, column, row."""
 
 
 class ShapeError(ModelerError):

@@ -295,7 +295,7 @@ class Expression:
 class _Algebra:
     """What the parts of an expression stand for.
 
-    A class, for a function within another that calls itself would keep the values, arrays perhaps,
+    A class, for a function within another that calls itself would keep the values, arrays possibly,
     until the garbage is collected.
     """
 
@@ -457,7 +457,7 @@ def _check_exponents(tree: ast.expr, text: str) -> None:
         except OverflowError:
             size = math.inf
         except (ArithmeticError, ValueError, TypeError):
-            continue  # it has no value: told where its value is asked for
+            continue  # it has no value: reported where its value is requested
         if size > LARGEST_EXPONENT:
             raise ExpressionError(
                 f'got "{text}", with an exponent of {size:.3g}; expected at most {LARGEST_EXPONENT}'

@@ -12,7 +12,7 @@ from modeler.core.errors import DataError
 from modeler.core.files import read_text
 from modeler.core.json import JsonError, SchemaError, build_instance, convert_to_plain, parse_json
 
-# Okabe and Ito, "Color Universal Design" (2008): told apart by colour-blind readers.
+# Okabe and Ito, "Color Universal Design" (2008): distinguished by colour-blind readers.
 BLACK, ORANGE, BLUE, VERMILLION = "#000000", "#E69F00", "#0072B2", "#D55E00"
 GREEN, PINK, SKY = "#009E73", "#CC79A7", "#56B4E9"
 GREY, SLATE = "#9A9A9A", "#6F6F6F"
@@ -24,13 +24,13 @@ PALE = {
     "yellow": "#F7F3B5",
     "brown": "#E6D5C3",
 }
-"""Of shaded stretches, by what captions call them after "pale"."""
+"""Of shaded segments, by what captions call them after "pale"."""
 
 SHADE = "#D0D0D0"
 """Of the interval that a panel points out."""
 
 COLORS = (BLUE, VERMILLION, GREEN, ORANGE, PINK, SKY, BLACK)
-"""Seven that colour-blind people tell apart (Okabe and Ito), for curves of many joints."""
+"""Seven that colour-blind people can distinguish (Okabe and Ito), for curves of many joints."""
 
 COLOR_NAMES = {
     BLACK: "black",

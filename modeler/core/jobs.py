@@ -56,7 +56,7 @@ class Workers:
             work: of what all share, and a job.
             shared: sent once to each worker, at most.
             jobs: in order.
-            done: is told the share.
+            done: receives the share.
 
         Raises:
             ModelerError: the first that a job raised, or no worker could do one.
@@ -75,7 +75,7 @@ class Workers:
         And so on.
 
         The pairs are the same whoever works, and so is the result, to the last bit, on machines
-        that compute alike. This process does nothing before the result is asked for.
+        that compute alike. This process does nothing before the result is requested.
 
         Args:
             work: of what all share, and a job.
@@ -145,7 +145,8 @@ def list_merge_pairs(count: int) -> Iterator[tuple[int, int]]:
 class Cluster(Workers):
     """The workers of a scheduler.
 
-    A job whose worker is lost is done again by another; one that has cost several workers is told.
+    A job whose worker is lost is done again by another; one that has cost several workers is
+    reported.
     """
 
     def __init__(self, client: "Client") -> None:
@@ -375,4 +376,4 @@ def open_processes(count: int) -> Iterator[Processes]:
                 os.environ[name] = value
 
 
-# One door for work that comes in many like pieces: here, in processes, or on other machines.
+# One entry point for work that comes in many like pieces: here, in processes, or on other machines.

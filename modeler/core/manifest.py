@@ -398,7 +398,7 @@ class EmittedModule(Result):
     Attributes:
         spec: its manifest.
         files: {file name: text}; `code`, the manifest, build files, programs, tables. What is not
-            `code` is made when it is first asked for.
+            `code` is made when it is first requested.
         log: what the robot file says of the columns of logs; no part of the C.
     """
 

@@ -1,7 +1,8 @@
 """What every result says of itself: a line, a summary, tables, frames, figures, pages, files.
 
-A result states what it holds; how it is shown stands in one room, `modeler.report.notebook`, which
-is told by `modeler.api`, and says it by a `Presentation` for each class when one is first shown.
+A result states what it holds; how it is shown stands in one package, `modeler.report.notebook`,
+which is registered by `modeler.api`, and says it by a `Presentation` for each class when one is
+first shown.
 """
 
 import html

@@ -310,7 +310,7 @@ DIGITS = 4
 def format_percent(share: float | None, digits: int = 3) -> str:
     """Returns a share in percent, as in "3.41 %"; "-" where it is not known.
 
-    What is less than a part in a million is 0: no measurement tells it.
+    What is less than a part in a million is 0: no measurement shows it.
     """
     if share is None or not math.isfinite(share):
         return "-"

@@ -52,7 +52,7 @@ class LoopEquations(ShortRepr):
         lengths: by u, True for a travel in m.
         size: of the robot, m: the longest way from a frame to the next with all joints at 0.
         alignments: positive where the loops are closed as meant.
-        others: equations that follow from `equations` where the loops are closed, but perhaps not
+        others: equations that follow from `equations` where the loops are closed, but possibly not
             where these alone hold.
     """
 
@@ -363,7 +363,7 @@ class LoopJoint:
     """A joint that closes a loop, by the two frames that meet in it.
 
     Attributes:
-        equations: that give expressions which vanish where it is closed, some perhaps redundant;
+        equations: that give expressions which vanish where it is closed, some possibly redundant;
             lengths in m where positions are compared, cosines where directions are.
         axes: whose product is 1 where it is closed as meant, -1 with axes opposite: the equations
             compare directions by right angles, which opposite axes fulfil too.

@@ -162,7 +162,7 @@ class CandidateRelation:
 
 
 class Prover:
-    """Tells which relations the loops of a robot imply on the branch of home."""
+    """Returns which relations the loops of a robot imply on the branch of home."""
 
     def __init__(self, closure: Closure, robot: Robot) -> None:
         self.closure, self.robot = closure, robot

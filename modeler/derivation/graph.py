@@ -470,7 +470,7 @@ class Graph:
         """Returns values of the outputs for numbers or arrays of the symbols."""
         refs = tuple(output.ref for output in outputs)
         plan = self._plans.pop(refs, None) or Plan(self, outputs)
-        self._plans[refs] = plan  # the last that was asked for is the last to go
+        self._plans[refs] = plan  # the last that was requested is the last to go
         if len(self._plans) > THRESHOLDS.cached_plans:
             del self._plans[next(iter(self._plans))]
         return plan(values)

@@ -339,7 +339,7 @@ def _negate_row(line: list[Element]) -> list[Element]:
 
 
 def _propagate_kernels(reach: FrameKernels, step: ConstantPlacement, K: ExactField) -> FrameKernels:
-    """The reach of a frame posed at (R, p) on a frame: what vanishes, told in its coordinates."""
+    """The reach of a frame posed at (R, p) on a frame: what vanishes, in its coordinates."""
 
     def propagate_rows(rows: Matrix, width: int, transfer: Callable[[], Matrix]) -> Matrix:
         """Returns the rows for the next frame; where all vanish there is nothing to compute."""
@@ -396,8 +396,8 @@ def _build_twist_transfer(step: ConstantPlacement, K: ExactField) -> Matrix:
 # vector s fixed to each bar, XZ and YZ of each its components, adds 2 W.(e x ds/dt) to 2T, with the
 # swing W and the axes' direction e; the vectors of a closed polygon sum to a constant. Another is a
 # body on a cylindrical joint of the base: it turns about one axis only. Relations of one joint
-# stand below; these go around the loop, and are looked for where the torques tell that some are
-# missing.
+# stand below; these go around the loop, and are looked for where the torques determine that some
+# are missing.
 
 
 def derive_closure_relations(
@@ -540,7 +540,7 @@ def _rotate_to_row(state: ModularState, row: int | None, vector: Residues) -> Re
 # mass at its centre; of a revolute one also a point mass anywhere on its axis and a rotor about
 # it, which are M, MZ and XX + YY at the meeting frames. These are exact statements on the
 # parameters of the two links that carry the frames; that there are no others is what the rank of
-# the torques tells.
+# the torques determine.
 
 
 def derive_loop_relations(

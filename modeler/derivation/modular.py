@@ -48,7 +48,7 @@ from modeler.effects import EnergyBlock
 # Vectors of residues modulo a prime: one entry per random point.
 #
 # Modulo SMALL they are int64 arrays, products of two residues fitting in 64 bits; modulo LARGE
-# arrays of Python integers, slower, with room to tell the rational number that a residue stands
+# arrays of Python integers, slower, with room to find the rational number that a residue stands
 # for.
 
 

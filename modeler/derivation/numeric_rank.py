@@ -98,7 +98,7 @@ def draw_sample(model: SymbolicModel, samples: int, seed: int) -> Sample:
     A closed posture is closed up to rounding r in the equations, hence wrong by J_s^-1 r in the
     passive joints. What such an error changes in the regressor is its rounding; it grows towards
     singularities, where regressor and rounding are both large. Rows are divided by the rounding of
-    their posture, so that none drowns what the others tell.
+    their posture, so that none drowns what the others show.
     """
     rng = np.random.default_rng(seed)
     if model.closure is None:

@@ -60,13 +60,13 @@ if TYPE_CHECKING:
 
 
 def is_speed_effect(effect: Effect) -> bool:
-    """Tells whether an effect of a joint depends on its speed alone."""
+    """Returns whether an effect of a joint depends on its speed alone."""
     form = effect.forms[0]
     pure = not form.nonlinear_parameters and form.names <= {"v"}
     return pure and effect.acts is EffectTarget.JOINT
 
 
-# What `add` is asked for, checked before any log is looked at.
+# What `add` is requested, checked before any log is looked at.
 
 
 def resolve_effect(model: IdentifiedModel, name: str, joint: str | None) -> Effect:
@@ -184,8 +184,8 @@ def add_effect(
         logs: to fit, and to judge on.
 
     Raises:
-        DataError: no such effect, one that is there already, cannot be told from the logs, or
-            cannot be added.
+        DataError: no such effect, one that is there already, cannot be distinguished from the logs,
+            or cannot be added.
     """
     effect = resolve_effect(model, name, joint)
     before = _FittedModel(model, build_rows(compiled, logs, model.processing))
@@ -279,7 +279,7 @@ def _compute_parameter_shifts(before: IdentifiedModel, after: IdentifiedModel) -
 
 
 def _explain_weak_evidence(pick: FittedCandidate, score: scoring.Score) -> str:
-    """Why an effect that was asked for is no more than a perhaps; empty if it may be named."""
+    """Why an effect that was requested is possible only; empty if it may be named."""
     candidate, whole = pick.candidate, score.whole
     errors = score.errors.get(candidate.joint or "", (whole.before, whole.after))
     against = ""
@@ -295,16 +295,15 @@ def add_findings(
 ) -> tuple[IdentifiedModel, tuple[str, ...]]:
     """Adds the effects of a diagnosis that lower the error; says why others are left out.
 
-    What a diagnosis says with a doubt is left out. One after the other; each is judged beside those
-    that were put in before it, by `score_change`. Drive gains come first and are judged together
+    What a diagnosis says with a warning is left out. One after the other; each is judged beside
+    those that were put in before it, by `score_change`. Drive gains come first and are judged
+    together
     where that lowers the error: one of two wrong gains alone may spoil other joints. What has no
     value above its sigma once everything is in is taken out again. A reason is one line that names
     the effect and its joint.
     """
     doubted = [f for f in findings if f.doubt]
-    left = [
-        _describe_omission(f.effect, f.joint, f"perhaps and no more: {f.doubt}") for f in doubted
-    ]
+    left = [_describe_omission(f.effect, f.joint, f"weak evidence: {f.doubt}") for f in doubted]
     best = _FittedModel(model, build_rows(compiled, logs, model.processing))
     best, rest = _add_drive_gains(best, [f for f in findings if not f.doubt])
     for finding in rest:
@@ -390,7 +389,7 @@ def _select_candidate(before: _FittedModel, effect: Effect, joint: str | None) -
     state = _build_state(before, effect)
     place = find_passive_joints(state.spec).get(joint or "")
     if place is not None and is_speed_effect(effect):
-        if state.spec.closure is not None:  # felt by all motors, by the speed that loops give it
+        if state.spec.closure is not None:  # acting on all motors, by the speed that loops give it
             effect = replace(effect, acts=EffectTarget.PASSIVE)
         scan = scan_candidates(state, [Candidate(effect, effect.forms[0], joint, place)])
     else:
@@ -418,7 +417,7 @@ def _score_addition(
     effect = pick.candidate.effect
     if pick.visible_share < THRESHOLDS.min_addable_share:  # the model would give it its values
         raise DataError(
-            f"{effect.id}: cannot be told from what the model has on these logs "
+            f"{effect.id}: cannot be distinguished from what the model has on these logs "
             f"({format_percent(pick.visible_share)} of it is left); {effect.look_alikes}"
         )
     after, refitted = _fit_with_candidate(before, pick), effect.acts is not EffectTarget.LINK

@@ -1,4 +1,4 @@
-"""The model with an effect: its robot file, its rows, how sure its values are, notes on it."""
+"""The model with an effect: its robot file, its rows, uncertainties of its values, notes on it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -309,7 +309,7 @@ def _find_parameters(model: IdentifiedModel, step: Addition) -> list[ParameterEs
 
 
 def is_unneeded(model: IdentifiedModel, step: Addition) -> bool:
-    """Tells whether all parameters of an effect are below their standard deviations."""
+    """Returns whether all parameters of an effect are below their standard deviations."""
     estimates = _find_parameters(model, step)
     return bool(estimates) and all(abs(p.value) <= (p.sigma or 0.0) for p in estimates)
 
@@ -350,7 +350,7 @@ def describe_additions(model: IdentifiedModel, since: int = -1) -> list[str]:
 
 def _describe_error_change(name: str, step: Addition) -> str:
     if step.falls:
-        doubt = f"; it is perhaps missing and no more: {step.doubt}" if step.doubt else ""
+        doubt = f"; the evidence that it is missing is weak: {step.doubt}" if step.doubt else ""
         kind = "held-out" if step.held_out else "cross-validated"
         changes = format_error_changes(step.joints, step.changed)
         return f"{name}: the {kind} error falls: {changes}{doubt}"

@@ -111,12 +111,12 @@ class Candidate(ShortRepr):
 
     @property
     def is_local(self) -> bool:
-        """Tells whether it enters the torque of its own joint only."""
+        """Returns whether it enters the torque of its own joint only."""
         return self.effect.acts is EffectTarget.JOINT
 
     @property
     def is_delay(self) -> bool:
-        """Tells whether it shifts all torques in time."""
+        """Returns whether it shifts all torques in time."""
         return "rate" in self.form.names
 
     @property
@@ -130,7 +130,7 @@ class Candidate(ShortRepr):
         return [f"{column.prefix}{self.joint or ''}" for column in self.form.columns]
 
     def can_refine(self, shape: NonlinearParameter) -> bool:
-        """Tells whether values off the grid are possible; of waves, if no grid gave the order."""
+        """Returns whether values off the grid are possible; of waves, if no grid gave the order."""
         if shape.scale == "waves":
             return self.nonlinear_parameters[shape.name] not in shape.grid
         return shape.is_continuous
@@ -239,7 +239,7 @@ def _has_logged_others(form: Form, joint: str, spec: ModuleSpec) -> bool:
 def _is_representative(
     effect: Effect, joint: str, known: StatedEffects, allowed: Callable[[str, str | None], bool]
 ) -> bool:
-    """True if it stands for those that no data tell from it: the first that is not ruled out."""
+    """True if it stands for those that no data separate from it: the first not ruled out."""
     for other in known.catalogue:
         if other is effect:
             return True
@@ -331,7 +331,7 @@ def evaluate_equations(
         name: np.array([candidate.nonlinear_parameters[name] for candidate in candidates])
         for name in first.nonlinear_parameters
     }
-    span = window if memory is None else EVERY  # what remembers reads the stretch from its start
+    span = window if memory is None else EVERY  # what has memory reads the segment from its start
     read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
     values |= {name: getattr(signals, name)[span, j, None] for name in read}
     others = first.form.other_joint_names
@@ -409,7 +409,7 @@ def list_body_parameters(candidate: Candidate, signals: Signals) -> list[Paramet
 def _find_inertial_parameters(
     candidate: Candidate, signals: Signals
 ) -> list[tuple[int, ParameterSpec]]:
-    """Inertial parameters of the link that a candidate loads that any joint feels; their places."""
+    """Inertial parameters of the loaded link that act on any joint; their places."""
     spec = signals.reference.compiled.spec
     link_key = "rigid_body", list_links(spec)[candidate.index]
     every = [(i, p) for i, p in enumerate(spec.standard) if (p.effect, p.joint) == link_key]
@@ -422,7 +422,7 @@ Columns = tuple[np.ndarray | None, ...]
 
 
 Evaluate = Callable[[int, slice], np.ndarray]
-"""Values over a window of the samples of a stretch, by its number."""
+"""Values over a window of the samples of a segment, by its number."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -448,8 +448,8 @@ class Rows(ShortRepr):
         time: (rows_j,) by joint, s.
         run: (rows_j,) by joint, index of the log.
         segment: (rows_j,) by joint.
-        blocks: filters (rows_j, samples) in pieces, by stretch.
-        signals: by stretch.
+        blocks: filters (rows_j, samples) in pieces, by segment.
+        signals: by segment.
         reference_cache: what was made of them for this reference, by name.
         cache: columns that do not depend on the model, shared by all references.
     """
@@ -543,7 +543,7 @@ class Rows(ShortRepr):
 
     @property
     def _numbered_blocks(self) -> list[tuple[int, RowBlock]]:
-        """Stretch by stretch."""
+        """Segment by segment."""
         return [(i, block) for i, blocks in enumerate(self.blocks) for block in blocks]
 
 
@@ -613,7 +613,7 @@ def build_base_columns(
 
 
 def _split_blocks(filters: Sequence[csr_array], samples: int) -> tuple[RowBlock, ...]:
-    """Of one stretch: the rows whose first sample lies in one window, for one after the other."""
+    """Of one segment: the rows whose first sample lies in one window, for one after the other."""
     starts = np.arange(0, samples, THRESHOLDS.sample_window)
     edges = []
     for weights in filters:

@@ -172,7 +172,7 @@ def diagnose(
     diagnosis = assemble_diagnosis(model, band_searches, window, faults, changed_parameters)
     if equations and limit:
         stages.begin_stage(1.0)
-        facts = [(f.effect, f.joint) for f in diagnosis.effects if f.status == "fact"]
+        facts = [(f.effect, f.joint) for f in diagnosis.effects if f.status == "confirmed"]
         band = band_searches[0]
         discoveries = discover_equations(band.search, facts, band.other, stages.advance)
         diagnosis = replace(diagnosis, discoveries=discoveries)
@@ -212,10 +212,10 @@ def _describe_gravity_confounders(
     if balancing is None:
         return []
     family = {e.id for e in catalogue if e.family == balancing.family}
-    named = {e.joint for e in diagnosis.effects if e.effect in family and e.status != "perhaps"}
+    named = {e.joint for e in diagnosis.effects if e.effect in family and e.status != "possible"}
     joints = find_gravity_confounders(start, generate_candidates(start, balancing.id, without))
     return [
-        f"a {balancing.id} on joint {joint} cannot be told from gravity: give link data "
+        f"a {balancing.id} on joint {joint} cannot be distinguished from gravity: give link data "
         "([parameters] with an uncertainty), or a motion that turns this joint over more of its "
         "range, and the joints before it fast"
         for joint in joints
@@ -278,7 +278,7 @@ def find_fixed_parameters(
 def _detect_push(search: Search) -> PushWindow | None:
     """When something pushed; with its first part left out of the fit, more of it may show."""
     end, data = search.end, search.start.data
-    # a gear may have so much play that one of its knocks looks like a push
+    # a gear may have so much play that one of its impacts looks like a push
     most, joints = THRESHOLDS.min_burst_ratio, range(end.rows.joint_count)
     rattles = any(compute_burst_ratio(end, j) > most for j in joints)
     window = more = None if rattles or not search.last.ranked else find_contact_window(end)

@@ -295,7 +295,7 @@ class JointSearch:
         return again[0] if again and again[0].cost < item.cost else item
 
     def has_significant_product(self) -> bool:
-        """Tells whether a product is significant: laws resolve no waves and no memory."""
+        """Returns whether a product is significant: laws resolve no waves and no memory."""
         columns, most = self.factor_columns, THRESHOLDS.max_exact_columns
         ranked = _by_price(self.rank_columns(columns), self.rank_products(columns, most))
         few = self.score_columns(self.select_distinct(ranked, THRESHOLDS.max_hint_products))

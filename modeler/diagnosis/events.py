@@ -202,7 +202,7 @@ def _compute_energy_ratio(square: np.ndarray, event: np.ndarray, events: int) ->
     return float(trimmed_loud.mean() / max(float(rest.mean()), 1e-300))
 
 
-_NO_FALL = "no column of play surely lowers the error"
+_NO_FALL = "no column of play significantly lowers the error"
 
 
 def detect_events(
@@ -214,9 +214,9 @@ def detect_events(
 ) -> list[Finding]:
     """Adds contact and backlash to the findings.
 
-    Its knocks ring like a spring: where there is play, elasticity that explains little is no effect
-    of its own. Play that is heard only before columns on its joint were put in goes ahead of those
-    that explain little.
+    Its impacts ring like a spring: where there is play, elasticity that explains little is no
+    effect of its own. Play that is heard only before columns on its joint were put in goes ahead of
+    those that explain little.
 
     Args:
         search: of the training logs.
@@ -252,7 +252,7 @@ def _is_ringing(finding: Finding) -> bool:
 
 
 def _find_impact_effects(search: Search) -> list[Effect]:
-    """Effects that knock; one at most."""
+    """Effects with impacts; one at most."""
     return [e for e in search.catalogue if e.knocks][:1]
 
 
@@ -318,12 +318,12 @@ def _collect_backlash_columns(search: Search) -> dict[int, ScoredCandidate]:
 
 
 def _detect_faint_backlash(search: Search, least: float, knocks: bool) -> Finding | None:
-    """Play whose bursts noise covers, or that knocks without rule: its column tells it then.
+    """Play whose bursts noise covers, or whose impacts follow no rule: its column shows it then.
 
     Args:
         search: of the training logs.
         least: ratio of the bursts.
-        knocks: False where something else may knock.
+        knocks: False where something else may have impacts.
     """
     joints, columns = _list_backlash_joints(search), _collect_backlash_columns(search).items()
     large = [(j, score) for j, score in columns if score.t_ratio > THRESHOLDS.min_t_ratio]
@@ -335,8 +335,8 @@ def _detect_faint_backlash(search: Search, least: float, knocks: bool) -> Findin
         if ratio > least:
             return _build_backlash_finding(search, [j], _format_burst_ratio(ratio))
         if knocks and share > THRESHOLDS.min_burst_share:
-            text = f"{format_percent(share)} of the residual's energy comes in brief outbursts"
-            doubt = "its outbursts do not follow the sign of the load"
+            text = f"{format_percent(share)} of the residual energy is concentrated in short bursts"
+            doubt = "its bursts do not follow the sign of the load"
             return _build_backlash_finding(search, [j], text, doubt)
     return None
 

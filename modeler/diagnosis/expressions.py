@@ -53,7 +53,7 @@ class Factor(ShortRepr):
 
     @property
     def has_memory(self) -> bool:
-        """Tells whether it has the inner state z; an effect has one at most."""
+        """Returns whether it has the inner state z; an effect has one at most."""
         return self.effect.forms[0].internal_state is not None
 
     def compute_step_sizes(self) -> list[float]:
@@ -147,7 +147,7 @@ class Formula(ShortRepr):
 
     @property
     def is_definable(self) -> bool:
-        """Tells whether a definition can hold it: one inner state, few parameters."""
+        """Returns whether a definition can hold it: one inner state, few parameters."""
         few = len(self.nonlinear_parameters) <= THRESHOLDS.max_formula_parameters
         return few and sum(part.has_memory for part, _ in self.named_factors) < 2
 

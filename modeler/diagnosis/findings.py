@@ -164,7 +164,7 @@ def _is_logged(data: SearchData, candidate: Candidate) -> bool:
 
 
 def _rescan_candidates(state: State, step: SearchStep, search: Search) -> list[ScoredCandidate]:
-    """The effect and its nearest rivals, each at the best of its shapes."""
+    """The effect and the next best alternatives, each at the best of its shapes."""
     refused = {j.key for j in search.vetoed_candidates}
     rivals = [j.candidate for j in step.alternatives if j.key not in refused]
     first = [step.candidate, *rivals[: THRESHOLDS.max_rechecked_alternatives]]
@@ -330,7 +330,7 @@ def assemble_diagnosis(
     every = [_add_event_caveat(finding, joints) for finding in every]
     if changed_parameters:
         every = [replace(finding, doubt=NOT_JUDGED) for finding in every]
-    every.sort(key=lambda finding: finding.status == "perhaps")
+    every.sort(key=lambda finding: finding.status == "possible")
     effects, refinements = (tuple(f for f in every if f.is_refinement is r) for r in (False, True))
     diagnosis = result.Diagnosis(
         robot=model.spec.robot,
@@ -460,7 +460,7 @@ def _build_finding(
 def _is_refinement(search: Search, k: int) -> bool:
     """True if it mends a law in the model, or an effect of its family named before on its joint.
 
-    Those are smaller than what they mend. What moves the links is felt next to its joint too.
+    Those are smaller than what they mend. What moves the links acts beside its joint too.
     """
     steps = (*search.prior_steps, *search.steps)[: k + 1]
     mends = [

@@ -42,7 +42,7 @@ from modeler.regression import apply_low_pass, compute_bristle_state, find_neare
 
 
 def is_confirmed(state: State, candidate: Candidate, values: np.ndarray) -> bool:
-    """Tells whether the smooth motion supports the effect, and no convention explains it.
+    """Returns whether the smooth motion supports the effect, and no convention explains it.
 
     Noise of the encoder runs through the controller into the torque: least squares then see delays
     and elasticity that are not there. Instruments are the same columns built from a motion without
@@ -294,9 +294,9 @@ def _collect_measurements(state: State, j: int) -> Measurements:
     )
 
 
-@lru_cache(maxsize=1)  # all joints of some logs are asked for one after the other
+@lru_cache(maxsize=1)  # all joints of some logs are requested one after the other
 def _collect_signals(rows: Rows) -> list[np.ndarray]:
-    """(samples, 5 J + ...) by stretch: q, v, a, load and torque of all joints, and what rings.
+    """(samples, 5 J + ...) by segment: q, v, a, load and torque of all joints, and what rings.
 
     Oscillators that the accelerations of all joints excite, and their speeds.
     """
@@ -327,7 +327,7 @@ def generate_candidates(
 
     Args:
         state: it.
-        only: id of the one effect that is asked for.
+        only: id of the one effect that is requested.
         without: ids of effects, or id@joint, that the user rules out.
         keys: effects and joints that count; None: all.
     """
@@ -359,7 +359,7 @@ def generate_candidates(
 
 
 def is_ruled_out(effect: str, joint: str | None, without: Sequence[str]) -> bool:
-    """Tells whether the user rules out the effect, everywhere or on that joint."""
+    """Returns whether the user rules out the effect, everywhere or on that joint."""
     return effect in without or f"{effect}@{joint}" in without
 
 

@@ -5,7 +5,7 @@ With e the residual of joint j, W the columns of the model and B splines of one 
     minimise |(y - W beta - B c) / sigma|^2 + s |D c|^2 + r |c|^2
 
 over all joints' rows, beta and c together; D are second differences along each axis (Eilers and
-Marx 1996). The smoothness s, and the coordinates where none are asked for, are those that lose
+Marx 1996). The smoothness s, and the coordinates where none are requested, are those that lose
 least on folds of time that were not fitted. A little r gives to physics what both could explain.
 """
 
@@ -133,7 +133,7 @@ class LearnedLaw(ShortRepr):
 
     @property
     def is_significant(self) -> bool:
-        """Tells whether it is significant."""
+        """Returns whether it is significant."""
         large = self.variance_reduction > THRESHOLDS.min_variance_reduction
         large = large and self.torque_share > THRESHOLDS.min_torque_share
         return large and self.t_ratio > THRESHOLDS.min_law_t_ratio
@@ -235,7 +235,7 @@ def learn_law(state: State, j: int, request: LawRequest = ANY_LAW) -> LearnedLaw
 def _refine_coordinates(
     state: State, j: int, fit: "_SplineFit", splines: "_SplineBasis", rising: int
 ) -> tuple["_SplineFit", "_SplineBasis"]:
-    """At a travel or a time of what remembers that loses less: steps by factors, ever smaller."""
+    """At a travel or a time of what has memory that loses less: steps by factors, ever smaller."""
     for name in splines.coordinates.further.get("shapes", {}):
         factor = 2.0
         while factor > THRESHOLDS.min_refinement_factor:
@@ -305,7 +305,7 @@ def _list_bristle_definitions(state: State, j: int) -> list[Mapping[str, Any]]:
 def _select_simplest(
     fits: Sequence[tuple["_SplineFit", "_SplineBasis"]],
 ) -> tuple["_SplineFit", "_SplineBasis"]:
-    """Of those that the data do not tell from the best, the one with the fewest axes."""
+    """Of those that the data do not distinguish from the best, the one with the fewest axes."""
     best = max(fits, key=lambda item: float(item[0].reductions.sum()))
     total = float(best[0].reductions.sum())
     least, most = THRESHOLDS.parsimony_share * total, THRESHOLDS.max_chance_t

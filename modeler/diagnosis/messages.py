@@ -71,7 +71,7 @@ def _check_joint_motion(state: State, j: int, joint: JointSpec) -> list[str]:
     if speed is not None:
         lines.append(
             f"joint {joint.name} moves at one speed only ({speed:.2g} {joint.unit}/s): friction "
-            "laws cannot be told apart; move at five speeds or more"
+            "laws cannot be distinguished; move at five speeds or more"
         )
     return lines
 
@@ -136,7 +136,7 @@ def exclude_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None
 
 
 def _check_chatter(state: State) -> list[str]:
-    """Joints whose model trembles from row to row, and whose torque does not."""
+    """Joints whose model has high-frequency content from row to row, and whose torque does not."""
     ratios = compute_chatter_ratios(state.data.observation, state.torque)
     joint_ratios = {
         state.joint_names[j]: ratio
@@ -293,7 +293,7 @@ NOT_JUDGED = "the machine differs between the training and the held-out logs"
 """Why no effect is judged where parameters have changed."""
 
 
-_ONLY_HERE = "of these logs' error, but that of motion left out does not surely fall with it"
+_ONLY_HERE = "of these logs' error, but that of motion left out does not fall significantly with it"
 _PART = "it explains only a part of the systematic residual"
 
 _ONLY_TIMING = (
@@ -407,8 +407,8 @@ def _describe_bursts(diagnosis: Diagnosis, name: str) -> str:
     if share == 0.0:
         return ""
     return (
-        f"; {format_percent(share)} of its energy comes in brief outbursts: play, a loose part, or "
-        "a log that begins before the motion has settled"
+        f"; {format_percent(share)} of its energy is concentrated in short bursts: play, a loose "
+        "part, or a log that begins before the motion has settled"
     )
 
 
@@ -422,7 +422,7 @@ def _write_headline(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict == "missing" and first is not None:
         return f"missing: {_format_effect(first, diagnosis)}{describe_equivalents(first)}"
     if diagnosis.verdict == "closest description" and first is not None:
-        perhaps = "perhaps " if first.doubt else ""
+        perhaps = "possibly " if first.doubt else ""
         reason = first.doubt or first.objection or _PART
         return (
             "closest description: "
@@ -457,7 +457,7 @@ def format_equivalents(finding: Finding) -> str:
 def describe_equivalents(finding: Finding) -> str:
     """Describes these behind its name."""
     names = format_equivalents(finding)
-    return f", or {names} (these data do not tell which)" if names else ""
+    return f", or {names} (these data do not distinguish which)" if names else ""
 
 
 def _describe_refinement(finding: Finding, diagnosis: Diagnosis) -> str:
@@ -489,12 +489,12 @@ def _describe_effect(finding: Finding, diagnosis: Diagnosis) -> str:
     if finding.closure is None:
         return f"{format_location(finding.joint)}: {finding.effect} ({values}): {finding.evidence}"
     names = format_equivalents(finding)
-    tail = f"; these data do not tell it from {names}" if names else ""
+    tail = f"; these data do not distinguish it from {names}" if names else ""
     for why in dict.fromkeys((finding.doubt, finding.objection)):
         tail += f"; {why}" if why else ""
     change = " -> ".join(format_error_pair(finding.error_before, finding.error_after))
     source = "held-out" if diagnosis.held_out else "cross-validated"
-    what = f"perhaps {finding.effect}" if finding.doubt else finding.effect
+    what = f"possibly {finding.effect}" if finding.doubt else finding.effect
     return f"{format_location(finding.joint)}: {what} ({values}): {source} error {change}{tail}"
 
 

@@ -20,7 +20,7 @@ _SCALES = frozenset({"torque"})
 
 
 def is_gain(candidate: Candidate) -> bool:
-    """Tells whether an effect scales the torque of its joint."""
+    """Returns whether an effect scales the torque of its joint."""
     return candidate.is_local and candidate.form.names == _SCALES
 
 
@@ -350,7 +350,7 @@ FADES = frozenset({"t", "load", "static"})
 
 
 def is_friction_driving(before: State, after: State, pick: Candidate) -> bool:
-    """Tells whether friction would drive with the effect, and does not without it.
+    """Returns whether friction would drive with the effect, and does not without it.
 
     Args:
         before: the state without the effect.
@@ -371,7 +371,7 @@ def is_friction_driving(before: State, after: State, pick: Candidate) -> bool:
 
 
 def has_friction(state: State, j: int) -> bool:
-    """Tells whether the model has friction of joint j alone."""
+    """Returns whether the model has friction of joint j alone."""
     return bool(_find_friction_columns(state, j))
 
 
@@ -389,7 +389,7 @@ def compute_largest_friction(state: State, j: int) -> float:
 
 
 def is_torque_computed(state: State) -> bool:
-    """Tells whether torques were computed from the motion: no joint has friction.
+    """Returns whether torques were computed from the motion: no joint has friction.
 
     By medians over the joints of Coulomb and viscous friction; those that the model lacks are
     fitted beside it.
@@ -523,7 +523,7 @@ def _check_tilt(state: State, pick: Candidate, parameters: Mapping[str, float]) 
 
 
 EITHER = "describes it as well"
-"""Ends the objection to a filter that these data do not tell from a delay."""
+"""Ends the caveat to a filter that these data do not distinguish from a delay."""
 
 
 def _check_lag(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:

@@ -1,4 +1,4 @@
-"""How sure values are whose shapes were fitted too: the likelihood along all shapes.
+"""How certain values are whose shapes were fitted too: the likelihood along all shapes.
 
 For shapes theta of an effect, all parameters beside them are linear: least squares gives their
 values g(theta) with deviations s(theta), and the weighted squared residual S(theta). With S* the
@@ -6,14 +6,14 @@ least of it,
 
     L(theta) = exp(-(S(theta) - S*) / (2 f^2))
 
-is the profile likelihood (f^2: by how much residuals that remember raise variances). A value is in
+is the profile likelihood (f^2: by how much autocorrelated residuals raise variances). A value is in
 the interval if any shape with it is not refused:
 
     min_theta (S(theta) - S*) / f^2 + ((g - g(theta)) / s(theta))^2 <= 3.84, the 95 % quantile;
 
 where two shapes do as well, it spans both (Venzon and Moolgavkar 1988, Applied Statistics 37(1);
 Seber and Wild 1989, section 5.4). The standard deviation is that of the mixture of all shapes,
-weighted by L, about the value that is told; for a narrow L it is that of the delta method.
+weighted by L, about the value that is reported; for a narrow L it is that of the delta method.
 """
 
 import itertools
@@ -142,8 +142,8 @@ class Profile:
 
     Attributes:
         points: shapes that were looked at.
-        reported_point: shapes and values that are told.
-        factor: (k,) of the deviations: residuals that remember.
+        reported_point: shapes and values that are reported.
+        factor: (k,) of the deviations: autocorrelated residuals.
         nonlinear_factor: f.
     """
 
@@ -223,7 +223,7 @@ def compute_profile(
 
     Args:
         state: the rows.
-        candidate: the effect with the shapes that are told.
+        candidate: the effect with the shapes that are reported.
         effect_columns: its columns in the state.
     """
     problem = ProfileProblem(state, candidate, effect_columns)
@@ -270,7 +270,7 @@ def _scan_nonlinear(
 
 
 def _build_line(scale: JointScale, start: Candidate, shape: NonlinearParameter) -> list[float]:
-    """Coded values of one shape to begin with, ascending; the told one among them."""
+    """Coded values of one shape to begin with, ascending; the reported one among them."""
     coded_value = encode_parameter(shape, start.nonlinear_parameters[shape.name])
     if shape.scale == "waves":
         count = THRESHOLDS.neighbouring_orders
@@ -314,7 +314,7 @@ def _scan_grid(
     smooth: Sequence[NonlinearParameter],
     lines: Sequence[Sequence[float]],
 ) -> list[ProfilePoint]:
-    """Points on a grid about the told shapes, along the axes of the likelihood there."""
+    """Points on a grid about the reported shapes, along the axes of the likelihood there."""
     middle = start.encode_parameters(smooth)
     low, high = (np.array([line[end] for line in lines]) for end in (0, -1))
     # a root of the covariance of the coded shapes, by the slopes of the columns
@@ -355,7 +355,8 @@ def _compute_factors(
 ) -> np.ndarray:
     """(k + s,) on the deviations of parameters and smooth shapes, 1 and more.
 
-    Residuals remember, and they are largest where an effect acts, in a few reversals, say. The
+    Residuals are autocorrelated, and they are largest where an effect acts, in a few reversals,
+    say. The
     larger of two estimates: by the autocorrelation of the residuals, and by their own sums over
     blocks of time, V = sum_b g_b g_b^T with g_b = sum_t u_t e_t, u_t the influence of a row on the
     parameters (White 1980, Econometrica 48(4); Arellano 1987).
@@ -487,5 +488,5 @@ def build_reduction_function(state: State, place: int) -> Callable[[Candidate], 
 
 
 def is_prismatic(spec: ModuleSpec, joint: str | None) -> bool:
-    """Tells whether a joint is prismatic."""
+    """Returns whether a joint is prismatic."""
     return any(joint_spec.name == joint and joint_spec.unit == "m" for joint_spec in spec.joints)

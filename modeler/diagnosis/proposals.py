@@ -130,7 +130,7 @@ def _select_formulas(
 def _sort_by_held_out_error(
     formulas: list[_AcceptedFormula], other: SearchData | None
 ) -> list[_AcceptedFormula]:
-    """The least held-out error first; of those that it does not surely beat, the shortest."""
+    """The least held-out error first; of those not significantly worse, the shortest."""
     if len(formulas) < 2:
         return formulas
     left = [scoring.compute_holdout_residuals(formula.later, other) for formula in formulas]
@@ -220,7 +220,7 @@ def _build_proposal(
     )
 
 
-# The nearest effect with a name, and what tells it from the next.
+# The nearest effect with a name, and what distinguishes it from the next.
 
 
 def _describe_nearest(
@@ -284,7 +284,7 @@ def _build_joint_columns(state: State, candidate: Candidate) -> np.ndarray:
 def _add_discriminating_motions(
     proposals: Sequence[EquationProposal], states: Sequence[State], j: int
 ) -> tuple[EquationProposal, ...]:
-    """Each with the motion that tells it from the next, the last from the first."""
+    """Each with the motion that distinguishes it from the next, the last from the first."""
     if len(proposals) < 2:
         return tuple(proposals)
     pairs = [(p.finding.pick, s) for p, s in zip(proposals, states, strict=True)]

@@ -346,7 +346,7 @@ class TimeBlocks(ShortRepr):
 def build_time_blocks(observation: Observation) -> TimeBlocks:
     """Builds blocks of half a second, and eight folds.
 
-    Each log is cut into eight stretches; where its motion repeats, one lap is, and the same phase
+    Each log is cut into eight segments; where its motion repeats, one lap is, and the same phase
     of all laps is held out together: neighbouring laps would give the answer away.
     """
     time, run = observation.time, observation.run

@@ -40,9 +40,9 @@ class CrossCheck:
 
     Attributes:
         what: which look, in words.
-        leads: effect and joint that lead there on its joint; None if nothing surely does.
-        agrees: True if that is the effect, if the data there do not tell it from the effect, or if
-            nothing is sure there.
+        leads: effect and joint that lead there on its joint; None if nothing does significantly.
+        agrees: True if that is the effect, if the data there do not distinguish it from the effect,
+            or if nothing is sure there.
         gain: fall of the residual variance of its joints there, cross-validated; NaN if unknown.
         expected: what the values that it was named with let expect of it there; 0 if unknown.
     """
@@ -82,7 +82,7 @@ class ParameterChange:
 
 @dataclass(frozen=True, eq=False)
 class PushWindow:
-    """A stretch of time in which something pushed the robot.
+    """A segment of time in which something pushed the robot.
 
     Attributes:
         log: index.
@@ -168,7 +168,7 @@ def explain_weak_evidence(
         sigmas: standard deviations of its shapes, by name, where they are known.
         closed: share of what is systematic that it explains.
         checks: what others say of it.
-        ties: effects that these data do not tell from it.
+        ties: effects that these data do not distinguish from it.
         refines: True for what mends a law of the model, which may be small.
         left: relative errors with it of the joints that it touches.
     """
@@ -256,7 +256,7 @@ class Finding(ShortRepr):
         sigmas: standard deviations of the parameters and shapes; those of an effect with shapes
             hold for all shapes that the data do not refuse.
         units: of the parameters and shapes.
-        equivalents: effects that the data do not tell from it.
+        equivalents: effects that the data do not distinguish from it.
         evidence: why, in one or two sentences.
         closure: share of what is systematic on its joints that it explains itself; None for
             contacts and play, which are no columns of the model.
@@ -264,7 +264,7 @@ class Finding(ShortRepr):
         objection: why its values cannot be those of this robot; empty if they can.
         intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
         cross_checks: what other logs and another band say of it; empty for contacts and play.
-        doubt: why it is no more than a perhaps; empty if it is named.
+        doubt: why it is possible only; empty if it is named.
         is_first: True if nothing was named before it.
         pick: what `modeler add` puts in; None for contacts and play.
         is_event: True if it came once.
@@ -291,18 +291,18 @@ class Finding(ShortRepr):
 
     @property
     def is_confirmed(self) -> bool:
-        """Tells whether it is the cause, or one of those that these data do not distinguish."""
+        """Returns whether it is the cause, or one of those that these data do not distinguish."""
         closed = self.closure is None or self.closure >= THRESHOLDS.min_explained_fraction
         sure = not self.doubt and not self.objection and not math.isnan(self.gain)
         return closed and sure and self.is_first
 
     @property
     def status(self) -> str:
-        """Returns "fact" of what is stated as missing, else "named" or "perhaps"."""
+        """Returns "confirmed" of what is stated as missing, else "likely" or "possible"."""
         if self.doubt:
-            return "perhaps"
+            return "possible"
         alone = not self.is_refinement and not self.equivalents
-        return "fact" if self.is_confirmed and alone else "named"
+        return "confirmed" if self.is_confirmed and alone else "likely"
 
     @property
     def gain(self) -> float:
@@ -337,7 +337,7 @@ class EquationProposal(ShortRepr):
         likeness: share of its torque that this explains.
         differs: what differs, in plain words.
         final_search: the search with it as its last step, for pictures.
-        apart: the command that looks for a motion which tells it from the next.
+        apart: the command that looks for a motion which distinguishes it from the next.
         where: the state of the joint in these logs in which they differ most.
     """
 
@@ -405,7 +405,7 @@ class JointDiscovery(ShortRepr):
     Attributes:
         joint: name.
         share: of the residual's variance that a learned law explains on motion left out.
-        law: of what the law is a function; empty where it is the flexible rival's.
+        law: of what the law is a function; empty where it is the nonparametric baseline's.
         proposals: best first.
         why: why there are none.
     """
@@ -440,7 +440,7 @@ class JointState(ShortRepr):
         rms_before, rms_after: of the residual on the training logs.
         explained: share of the torque's variance that the model explains; NaN without torque.
         systematic: share of it that is left and is no noise: predictable, repeatable, lasting, or
-            in outbursts.
+            in bursts.
         noise: the rest.
     """
 
@@ -455,7 +455,7 @@ class JointState(ShortRepr):
 
     @property
     def is_unexplained(self) -> bool:
-        """Tells whether a significant systematic residual remains."""
+        """Returns whether a significant systematic residual remains."""
         left = self.systematic + self.noise
         share = THRESHOLDS.min_systematic_share * left
         return self.systematic > max(THRESHOLDS.min_systematic_torque**2, share)
@@ -477,13 +477,13 @@ class Diagnosis(Result):
         held_out: names of the logs that errors come from; empty for cross-validation.
         sentences: for people: verdict first.
         fit_band: Hz up to which the model was fitted, and `modeler add` fits.
-        data: doubts about the logs themselves.
+        data: warnings about the logs themselves.
         contradicted: True if channels of the logs contradict the model: then nothing is named.
         machine_changed: parameters in which the machine of the held-out logs differs: then
             nothing is judged.
         window: when something pushed, if anything did.
         search: everything behind it.
-        discoveries: equations proposed by joint; None where none were asked for.
+        discoveries: equations proposed by joint; None where none were requested.
         errors: by joint, of the model on these logs in its own band, as `compare` has them.
     """
 
@@ -546,7 +546,7 @@ class Diagnosis(Result):
 
     @property
     def changed(self) -> bool:
-        """Tells whether the robot has changed since the fit, so that parameters were fixed."""
+        """Returns whether the robot has changed since the fit, so that parameters were fixed."""
         return self.search.start.data.fixed_parameters is not None
 
     def to_json(self) -> dict[str, Any]:

@@ -52,18 +52,18 @@ class ErrorChange:
 
     @property
     def is_different(self) -> bool:
-        """Tells whether the two printed numbers differ."""
+        """Returns whether the two printed numbers differ."""
         return len(set(format_error_pair(self.before, self.after))) > 1
 
     @property
     def is_reduced(self) -> bool:
-        """Tells whether the error falls significantly."""
+        """Returns whether the error falls significantly."""
         lower = self.is_different and self.after < self.before
         return lower and self.t_ratio > THRESHOLDS.max_chance_t
 
     @property
     def is_increased(self) -> bool:
-        """Tells whether it rises significantly."""
+        """Returns whether it rises significantly."""
         higher = self.is_different and self.after > self.before
         return higher and self.t_ratio < -THRESHOLDS.max_chance_t
 
@@ -93,9 +93,9 @@ class Score:
 
     @property
     def is_better(self) -> bool:
-        """Tells whether the printed error falls significantly, and no joint is spoilt.
+        """Returns whether the printed error falls significantly, and no joint is spoilt.
 
-        Or if that of a joint surely falls by more than its noise, and none rises: what other
+        Or if that of a joint falls significantly by more than its noise, and none rises: what other
         effects leave of other joints may be more than all of it.
         """
         least = 1.0 / THRESHOLDS.min_spoiling_ratio
@@ -105,7 +105,7 @@ class Score:
 
     @property
     def has_spoilt_joint(self) -> bool:
-        """Tells whether the error of a joint rises by more than its noise."""
+        """Returns whether the error of a joint rises by more than its noise."""
         most = THRESHOLDS.min_spoiling_ratio
         return any(c.is_increased and c.error_ratio > most for c in self.joints)
 
@@ -293,7 +293,7 @@ class ScoredCandidate(ShortRepr):
 
     @property
     def is_local(self) -> bool:
-        """Tells whether it acts on its own joint only.
+        """Returns whether it acts on its own joint only.
 
         A drive gain is a matter of all joints that share parameters, and so is what explains more
         than there is to explain on its joint.
@@ -304,22 +304,22 @@ class ScoredCandidate(ShortRepr):
 
     @property
     def refines_model_term(self) -> bool:
-        """Tells whether its sign shows that it corrects the form of a term of the model."""
+        """Returns whether its sign shows that it corrects the form of a term of the model."""
         return self.candidate.effect.refines_model_term(float(self.values[0]))
 
     @property
     def is_unlikely(self) -> bool:
-        """Tells whether it, or its sign, is possible but rare."""
+        """Returns whether it, or its sign, is possible but rare."""
         effect = self.candidate.effect
         return effect.rare or (effect.rarely_negative and float(self.values[0]) < 0.0)
 
     def is_near(self, best: "ScoredCandidate") -> bool:
-        """Tells whether it explains nearly as much as the best: both are then refined."""
+        """Returns whether it explains nearly as much as the best: both are then refined."""
         return self.total_share > THRESHOLDS.refinement_share * best.total_share
 
     @property
     def is_significant(self) -> bool:
-        """Tells whether it is significant."""
+        """Returns whether it is significant."""
         big = self.variance_reduction > THRESHOLDS.min_variance_reduction
         big = big and self.torque_share > THRESHOLDS.min_torque_share
         shown = self.visible_share > THRESHOLDS.min_visible_share
@@ -399,12 +399,12 @@ def _build_score(state: State, candidate: Candidate, ranking: Ranking, i: int) -
 
 
 def is_possible(candidate: Candidate, values: np.ndarray) -> bool:
-    """Tells whether physics allows the signs and sizes of the candidate's parameters.
+    """Returns whether physics allows the signs and sizes of the candidate's parameters.
 
     With l the length of a spring on a lever, Gamma = k (l - l0) dl/dq for a helical one and F dl/dq
     for one of constant force: in sin(q - q0) / l the first has the coefficient -k l0 b, the second
     F b. The rest of the first, k b sin(q - q0), is mostly that of the link's first moment: the sign
-    tells them apart, unless the second pushes. What a tilt is depends on the robot (`plausible`).
+    distinguishes them, unless the second pushes. What a tilt is depends on the robot (`plausible`).
     """
     if candidate.effect.acts is EffectTarget.GRAVITY:
         return True
@@ -435,9 +435,9 @@ def select_best(state: State, candidate_scores: list[ScoredCandidate]) -> Ranked
 
 
 def is_refinement(finer: Candidate, plain: Candidate) -> bool:
-    """Tells whether it refines a law that every joint has.
+    """Returns whether it refines a law that every joint has.
 
-    It is friction too, or has more free numbers: where it explains no more, it is no rival.
+    It is friction too, or has more free numbers: where it explains no more, it is no alternative.
     """
     laws = plain.effect.id in EVERY and finer.effect.id not in EVERY
     on_joint = finer.effect.acts in (EffectTarget.JOINT, EffectTarget.MOTOR)
@@ -503,7 +503,7 @@ def select_alternatives(
 
     Args:
         best: that was put in.
-        others: its rivals then.
+        others: its alternatives then.
         after: the judgement with it.
     """
     left = {j.key: j.total_reduction for j in after.ranked}
@@ -597,8 +597,8 @@ def find_affected_joints(
 def make_veto(other: SearchData | None) -> Callable[[State, State, ScoredCandidate], bool]:
     """Makes a veto by unseen motion: True if a state with one more effect is not better.
 
-    The error of the joints that it touches must surely fall (`score_change`), and on held-out logs
-    by a good part of what the effect lets expect.
+    The error of the joints that it touches must fall significantly (`score_change`), and on
+    held-out logs by a good part of what the effect lets expect.
 
     Args:
         other: held-out logs.

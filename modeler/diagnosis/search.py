@@ -245,7 +245,7 @@ def scan_candidates(state: State, candidates: Sequence[Candidate]) -> CandidateS
 
 
 def is_vetoed(candidate: Candidate, vetoed: Sequence[ScoredCandidate]) -> bool:
-    """Tells whether it was vetoed; of ripples, all orders within a tenth."""
+    """Returns whether it was vetoed; of ripples, all orders within a tenth."""
     others = [candidate_score.candidate for candidate_score in vetoed]
     if not candidate.effect.several:
         return any(c.key == candidate.key for c in others if not c.effect.several)
@@ -267,7 +267,7 @@ class SearchStep(ShortRepr):
         score: the effect, and its numbers when it was chosen.
         alternatives: the others then, best first.
         before: the state it was chosen in.
-        equivalents: rivals that the data do not tell from it.
+        equivalents: alternatives that the data do not distinguish from it.
     """
 
     score: ScoredCandidate

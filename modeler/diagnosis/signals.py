@@ -1,4 +1,4 @@
-"""What the equations of effects read: motion, loads and states of one stretch at full rate."""
+"""What the equations of effects read: motion, loads and states of one segment at full rate."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 EVERY = slice(None)
-"""All samples of a stretch."""
+"""All samples of a segment."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,7 +202,7 @@ class Signals(ShortRepr):
         The torque is quadratic in v and linear in a: there differences are exact.
         """
         if j not in self._slope_cache:
-            self._slope_cache.clear()  # those of one joint are remembered
+            self._slope_cache.clear()  # those of one joint are cached
             self._slope_cache[j] = tuple(self._compute_slope(j, k) for k in range(3))
         return self._slope_cache[j]
 
@@ -315,12 +315,12 @@ def _discretise_oscillator(
 def compute_tilt_columns(signals: Signals, window: slice = slice(None)) -> np.ndarray:
     """Computes torques (n, J, k) of unit gravity along two axes across gravity, then others.
 
-    Of an arm that moves in a plane, along the one that it feels.
+    Of an arm that moves in a plane, along the one that acts on it.
     The others belong to first moments that the model's gravity hides (those of a vertical first
-    axis): the tilt makes them felt. Empty without gravity, and for robots with loops.
+    axis): the tilt makes them observable. Empty without gravity, and for robots with loops.
     """
     basis, q = signals.reference.tilt_directions, signals.q[window]
-    if not basis:  # a slide along gravity feels no other
+    if not basis:  # a slide along gravity is subject to no other
         return np.zeros((*q.shape, 0))
     slopes = compute_frame_slopes(signals.reference.compiled, q)
     return np.stack([compute_gravity_torque(slopes, axis, chi) for axis, chi in basis], axis=-1)
@@ -377,7 +377,7 @@ def compute_tilt_basis(reference: SignalReference) -> list[tuple[np.ndarray, np.
     across = first - down * (down @ first)
     across = across / np.linalg.norm(across)
     axes = (across, np.cross(down, across))
-    # an arm that moves in a plane does not feel gravity across it
+    # an arm that moves in a plane is not subject to gravity across it
     torques = [(axis, compute_gravity_torque(slopes, axis, chi)) for axis in axes]
     basis = [(axis, chi) for axis, torque in torques if np.linalg.norm(torque) > least]
     return basis + _find_hidden_moments(slopes, axes, down, len(rows))
@@ -396,7 +396,7 @@ def compute_tilt_axes(reference: SignalReference) -> np.ndarray:
 def _find_hidden_moments(
     slopes: np.ndarray, axes: tuple[np.ndarray, np.ndarray], down: np.ndarray, rows: int
 ) -> list[tuple[np.ndarray, np.ndarray]]:
-    """First moments without torque under the model's gravity that the others make felt."""
+    """First moments without torque under the model's gravity that the others make observable."""
     moments: list[tuple[np.ndarray, np.ndarray]] = []
     known = np.zeros((slopes.shape[0] * slopes.shape[1], 0))
     for r in range(rows):

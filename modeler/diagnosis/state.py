@@ -409,7 +409,7 @@ _FIXED = (EffectTarget.JOINT, EffectTarget.MOTOR, EffectTarget.PASSIVE, EffectTa
 
 
 def is_visible(columns: Columns) -> bool:
-    """Tells whether the columns are finite and none of them is zero throughout."""
+    """Returns whether the columns are finite and none of them is zero throughout."""
     parts = [c.T for c in columns if c is not None]
     if not parts or not len(parts[0]):
         return False

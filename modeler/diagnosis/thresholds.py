@@ -31,7 +31,7 @@ class Thresholds:
     min_stroke: Mapping[str, float] = field(default_factory=lambda: {"rad": 1e-3, "m": 1e-4})
     """rad or m by unit; a joint that moves less is at rest. Above encoder noise; no study."""
     max_one_way_share: float = 0.98
-    """Share of the moving rows in one direction above which friction and offset are not told apart;
+    """Share of the moving rows in one direction above which friction and offset are not separable;
     no study."""
     max_single_speed_ratio: float = 1.3
     """Ratio of the 90 % and 10 % quantiles of the speed below which a joint has one speed. No
@@ -220,7 +220,7 @@ class Thresholds:
     min_gravity_share: float = 0.02
     """Gravity over torque, rms; below it a joint has no load to balance. No study."""
     max_equal_residual_ratio: float = 1.1
-    """Ratio of two squared residuals of filters that data do not tell apart. No study."""
+    """Ratio of two squared residuals of filters that data do not distinguish. No study."""
     chi2_95: float = 3.841458820694124
     """95 % quantile of chi-square with one degree of freedom."""
     max_rise: float = 9.0
@@ -305,7 +305,7 @@ class Thresholds:
     min_refined_gain: float = 0.02
     """Variance reduction below which nothing is refined. No study."""
     max_effects: int = 8
-    """Effects that a diagnosis names unless another number is asked for."""
+    """Effects that a diagnosis names unless another number is requested."""
     min_description_gain: float = 0.15
     """Variance reduction with which an implausible effect still describes the data. No study."""
     max_rejections: int = 20

@@ -107,7 +107,7 @@ class NonlinearParameter(ShortRepr):
 
 @dataclass(frozen=True)
 class InternalState:
-    """The inner state z of an effect that remembers.
+    """The inner state z of an effect with memory.
 
     Attributes:
         kind: "slip": z' = (v/d)(1 - z sign v), the bristle of Dahl's friction; "resonance": the
@@ -228,21 +228,21 @@ class Effect(ShortRepr):
         negative: what a value below zero means, where that is no missing effect but mends the form
             of one in the model; empty elsewhere.
         turns: True if only a joint that turns can have it.
-        rarely_negative: True if its first parameter seldom is: a rival that explains as much is
-            likelier then.
+        rarely_negative: True if its first parameter seldom is: an alternative that explains as much
+            is likelier then.
         timing: True if errors of timing or of the encoder imitate it: the commanded motion decides.
         signature: how it shows itself in the residual.
         shows: the axis on which it does.
-        look_alikes: what it is mistaken for, and which motion tells them apart.
-        same_as: ids of effects that no data tell from it.
+        look_alikes: what it is mistaken for, and which motion distinguishes them.
+        same_as: ids of effects that no data distinguish from it.
         sign: of its last parameter, where that with the other is another effect; else 0.
         needs: what must be true of the robot for its values to be believed.
-        rare: True if a rival that explains as much is likelier.
+        rare: True if an alternative that explains as much is likelier.
         several: True if a joint may have it several times, with other shapes.
         orders: of waves that are proposed for it, least and largest; None: those of its grid only.
         whole_axis: True if it moves motor and links: the encoder shows both wrongly.
         last_link: True if it is carried by the last link.
-        knocks: True if it shows by outbursts after the load changes sign.
+        knocks: True if it shows by bursts after the load changes sign.
         hindrance: why it cannot be put into a model, and what to do; empty if it can.
         range: sign and range that physics allows.
         source: where it is described.

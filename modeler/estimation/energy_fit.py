@@ -44,7 +44,7 @@ class EnergyRows:
         balance: (r, c) the same as W with the difference of kinetic energy replaced by the
             integral of its power, which needs accelerations: W and it differ by the quadrature.
         spread: (r, n) variance of y for white torque noise of variance one on a joint, m2 or rad2.
-        stretch: (r,) number of the uninterrupted stretch, unique over the logs; the windows of
+        stretch: (r,) number of the uninterrupted segment, unique over the logs; the windows of
             one follow each other.
         time: (r, 2) s, first and last sample.
         run: (r,) index of the log.
@@ -83,7 +83,7 @@ def build_energy_rows(
 
     Args:
         model: the compiled robot.
-        observation: of the logs; full-rate motion and torque are taken from its stretches.
+        observation: of the logs; full-rate motion and torque are taken from its segments.
         window: s, rounded to an even number of samples; None: the spacing of the observation's
             rows, so that both models see the same band.
         rule: Simpson's rule, or the trapezoid, whose error is of order h^2 and not h^4.
@@ -123,9 +123,9 @@ def build_energy_rows(
 def _choose_windows(
     observation: Observation, window: float | None
 ) -> list[tuple[Segment, np.ndarray, np.ndarray]]:
-    """Returns segments, samples (r, k) of their windows, and the stretch (r,) of each window.
+    """Returns segments, samples (r, k) of their windows, and the segment (r,) of each window.
 
-    Windows are laid into the uninterrupted stretches of good samples.
+    Windows are placed in the uninterrupted segments of good samples.
     """
     windows, number = [], 0
     if window is not None:
@@ -256,7 +256,7 @@ def solve_heteroscedastic(
         y: (rows,).
         shares: (rows, sources) not negative.
         names: (c,).
-        stretch: (rows,) number of the stretch of each row; within one, rows are neighbours.
+        stretch: (rows,) number of the segment of each row; within one, rows are neighbours.
         method: "weighted" or "ordinary".
     """
     rank = find_independent_columns(compute_triangle(W), names)

@@ -4,7 +4,7 @@ Gravity is a vector g of frame 0 that the torques of logs carry. Torques are lin
 standard parameters, tau = (W_motion + sum_d g_d G_d) chi, where
 G_d chi = -d/dq (e_d . sum_j (M_j p_j + R_j MS_j)) for the frames [R_j | p_j] of the links. A log
 of drives that take gravity out has g = 0, a table with a wrong sign -g, a base that hangs another
-direction. Where positions close loops, a factor of the stated gravity is all that is asked for.
+direction. Where positions close loops, a factor of the stated gravity is all that is requested.
 """
 
 from collections.abc import Callable, Iterator
@@ -38,7 +38,7 @@ class ThinnedRows:
         tau: (m, n).
         used: (m, n) that count.
         means: by joint, (m, samples) weights of the samples in each row; they sum to one.
-        samples: by stretch, its segment and places in it.
+        samples: by segment, its segment and places in it.
         read: (samples, k) other inputs of the model; None without any.
     """
 
@@ -269,7 +269,7 @@ class GravityModel:
         Args:
             score: that is to be least.
             step: to a better gravity.
-            turned: True if other directions are asked for.
+            turned: True if other directions are requested.
         """
         candidates: list[np.ndarray] = []
         equal = THRESHOLDS.equal_log_error
@@ -348,7 +348,7 @@ def extract_gravity(compiled: CompiledModel, rows: ThinnedRows, free: bool) -> G
     Args:
         compiled: the robot.
         rows: of logs.
-        free: True if parameters are to be fitted; else a factor of gravity alone is asked for.
+        free: True if parameters are to be fitted; else a factor of gravity alone is requested.
     """
     q, qd, qdd = rows.motion
     whole = compiled.base_regressor(q, qd, qdd, rows.read)

@@ -266,7 +266,7 @@ def fit_equations(
     white = np.sqrt(np.diag(estimate.covariance))
     differ = HalvesComparison(np.ones(len(white)))
     if not noise_only:
-        differ = compare_halves(  # windows show a difference by so much less surely than all rows
+        differ = compare_halves(  # windows show a difference by so much less clearly than all rows
             observation,
             lambda rows: equations.compress_rows(rows, estimate.weight),
             alive,
@@ -477,15 +477,15 @@ def compare_bands(observation: Observation, estimate: Estimate) -> list[str]:
 
 @dataclass(frozen=True, eq=False)
 class CrossValidation:
-    """Holds errors of the fit on stretches that it was not fitted to.
+    """Holds errors of the fit on segments that it was not fitted to.
 
     Attributes:
-        errors: (n,) ||y_j - W_j beta|| / ||y_j||, each stretch predicted from the others; nan for
+        errors: (n,) ||y_j - W_j beta|| / ||y_j||, each segment predicted from the others; nan for
             a joint without rows or torque.
-        half_period: s, of the mean motion: the length of a stretch.
+        half_period: s, of the mean motion: the length of a segment.
         stretches: that many.
-        residual: (rows,) y - W beta, each row predicted from other stretches; 0 for those left out.
-        fold: (rows,) which stretches were left out together; of rows that were used.
+        residual: (rows,) y - W beta, each row predicted from other segments; 0 for those left out.
+        fold: (rows,) which segments were left out together; of rows that were used.
     """
 
     errors: np.ndarray
@@ -511,10 +511,10 @@ def cross_validate(
     prior: Prior | None = None,
     columns: Sequence[int] | None = None,
 ) -> CrossValidation:
-    """Returns the cross-validation over stretches of half a period.
+    """Returns the cross-validation over segments of half a period.
 
-    A stretch is as long as the motion needs to turn round, pi rms(qd) / rms(qdd), the median over
-    joints: neighbouring samples are alike, and would answer for each other. Every eighth stretch
+    A segment is as long as the motion needs to turn round, pi rms(qd) / rms(qdd), the median over
+    joints: neighbouring samples are alike, and would answer for each other. Every eighth segment
     is held out together, so that the motions of a log stand in all parts.
 
     Args:
@@ -580,7 +580,7 @@ def compute_held_out_errors(
 
 
 def _count_stretches(observation: Observation, half_period: float) -> np.ndarray:
-    """Returns (s,) number of the stretch of each sample, ascending over the logs."""
+    """Returns (s,) number of the segment of each sample, ascending over the logs."""
     number, first = np.zeros(len(observation.time), dtype=int), 0
     for run in np.unique(observation.run):
         part = observation.run == run

@@ -104,7 +104,7 @@ class ResidualModel:
         return beta, weights
 
     def compute_errors(self, data: NormalEquations, possible: bool = True) -> np.ndarray:
-        """Returns (k,) relative errors, of physically consistent parameters if asked for."""
+        """Returns (k,) relative errors, of physically consistent parameters if requested."""
         beta, weights = self.solve(data)
         if possible and self.beta is None:
             beta = self.project_fit(data, beta, weights)

@@ -1,7 +1,8 @@
 """The MODEL file: one JSON file with all that later commands need; it can be mailed.
 
 Checksums of its entries, and values that fit each other, show whether it still says what was
-saved. A checksum tells an edited value from a saved one; it is no proof of who saved the file.
+saved. A checksum distinguishes an edited value from a saved one; it is no proof of who saved the
+file.
 """
 
 import dataclasses
@@ -44,12 +45,12 @@ CHECKSUMS = "checksums"
 
 _MEANING = {
     "fit": "fit (the values and how they were found)",
-    "covariance": "covariance (how sure the values are)",
+    "covariance": "covariance (uncertainty of the values)",
     "robot_text": "robot_text (the robot file; to change the robot, fit the changed file)",
     "manifest": "manifest (what the C looks like)",
     "sources": "sources (the C)",
     "logs": "logs (what was fitted)",
-    "mapping": "mapping (which columns of the logs are ours)",
+    "mapping": "mapping (which column of the logs is which quantity)",
     "history": "history (the effects added)",
 }
 
@@ -62,7 +63,7 @@ class LogProvenance:
         name: its file name, no folder.
         rows: read.
         samples: after decimation.
-        content: fingerprint of the whole file's measurements; it tells the file under any name.
+        content: fingerprint of the whole file's measurements; it shows the file under any name.
         start, end: s, first and last row that was used of it.
         path: as it was given, `@START:END` of a piece of it too; relative to the folder of work, or
             to that of the model file. A hint, where the model was mailed; "" of what was no file.

@@ -117,7 +117,7 @@ def format_spread(value: float, sigma: float, interval: tuple[float, float] | No
 
 @dataclass(frozen=True, eq=False)
 class EssentialParameters:
-    """Holds the selection of a reduced model: an F-test cannot tell that the others left.
+    """Holds the selection of a reduced model: an F-test cannot show that the others left.
 
     Attributes:
         names: essential parameters, in column order.

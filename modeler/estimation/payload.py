@@ -25,7 +25,7 @@ from modeler.regression import Observation, Segment, compute_signals
 from modeler.runtime import CompiledModel
 
 _ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
-"""Where two load parameters cannot be told apart, the first in this order stays."""
+"""Where two load parameters cannot be distinguished, the first in this order stays."""
 
 AnyModel = TypeVar("AnyModel", bound=IdentifiedModel)
 

@@ -349,7 +349,7 @@ def describe_unused_prior(spec: ModuleSpec, what: str, use: str) -> tuple[str, .
         use: of the values of the bodies.
 
     Raises:
-        DataError: the robot file states how sure single parameters are, or holds them.
+        DataError: the robot file states uncertainties of single parameters, or holds them.
     """
     if named := [p.name for p in spec.standard if p.deviation is not None]:
         raise DataError(

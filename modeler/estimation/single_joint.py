@@ -43,8 +43,8 @@ class SingleJointMove:
 
     Attributes:
         joint: its index.
-        part: index of the stretch of the observation.
-        window: samples of that stretch.
+        part: index of the segment of the observation.
+        window: samples of that segment.
     """
 
     joint: int

@@ -211,7 +211,7 @@ def _solve_first_step(
             return (
                 "other functions than those of one body that turns"
                 if along is None
-                else "too short to tell inertia, gravity and friction apart"
+                else "too short to distinguish inertia, gravity and friction"
             )
     log, times = observation.logs[segment.run], segment.time[window]
     start, end, noise = float(times[0]), float(times[-1]), np.eye(len(first_steps))

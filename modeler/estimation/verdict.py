@@ -339,7 +339,7 @@ def judge_fit(
     """Returns the fit with its verdict.
 
     A fit is valid for prediction of torques of motion like that of its logs if it describes every
-    joint, predicts stretches that are left out, the time runs in seconds, and a machine that
+    joint, predicts segments that are left out, the time runs in seconds, and a machine that
     could be built describes the joints as well. It is valid for its parameters if, beyond that,
     no joint is doubtful, one such machine lies in their confidence region, the logs determine the
     values, and what is left of the torques is small or noise.
@@ -462,7 +462,7 @@ def find_contradictions(
     log_warnings: Sequence[DataWarning] = (),
     data: CompressedRegression | None = None,
 ) -> list[str]:
-    """Returns why a fit is certainly not valid, other than for want of data.
+    """Returns why a fit is certainly not valid, other than for lack of data.
 
     A log that is too short for a fit of its own may still say something beside others.
 

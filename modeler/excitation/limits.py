@@ -156,7 +156,7 @@ class Clearance(ShortRepr):
         return (
             f"nearest are {near.pair[0]} and {near.pair[1]}, {1e3 * near.distance:.1f} mm apart at "
             f"{near.time:.4g} s; at no time, between samples too, are any two nearer than "
-            f"{1e3 * near.bound:.1f} mm, of {1e3 * self.margin:g} mm asked for{excluded_text}"
+            f"{1e3 * near.bound:.1f} mm, of {1e3 * self.margin:g} mm requested{excluded_text}"
         )
 
     def to_json(self, near: ClosestApproach | None) -> dict[str, Any]:

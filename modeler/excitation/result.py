@@ -23,7 +23,7 @@ from modeler.runtime import CompiledModel
 
 @dataclass(frozen=True)
 class MotionQuality:
-    """How well a motion tells parameters apart.
+    """How well a motion distinguishes parameters.
 
     Attributes:
         condition: of W, rows weighted, columns of length one.
@@ -63,7 +63,7 @@ class InformationGain(ShortRepr):
 
     Attributes:
         names, units: (c,) of the base parameters.
-        before: their sigmas by the logs that there are; None: those do not tell.
+        before: their sigmas by the logs that there are; None: those do not identify it.
         after: those to expect of these logs and the next one, by the rules of the same fit.
         logs: names of the logs that there are.
         condition: of their rows, and with those of the next one; columns of length one.
@@ -80,7 +80,7 @@ class InformationGain(ShortRepr):
         """Formats lines of text: what gains most, first."""
         rows = []
         for name, unit, a, b in zip(self.names, self.units, self.before, self.after, strict=True):
-            cells = ["not told" if value is None else f"{value:.3g}" for value in (a, b)]
+            cells = ["not determined" if value is None else f"{value:.3g}" for value in (a, b)]
             gain = a / b if a and b else np.inf if b else 1.0
             rows.append((gain, (name, *cells, unit, f"/ {gain:.3g}" if a and b else "")))
         rows.sort(key=lambda row: -row[0])
@@ -112,7 +112,7 @@ class ExcitingMotion(Result):
     Attributes:
         robot: name.
         bounds: its limits.
-        request: what was asked for.
+        request: what was requested.
         series: of the motion.
         x: (J, 2 K - 1) its coefficients.
         quality: of it.

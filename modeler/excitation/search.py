@@ -52,7 +52,7 @@ class ExcitationTask:
         column_indices: (k,) columns that matter.
         posture: what positions alone must keep to, besides their ranges.
         beta: (c,) for torques; None where no parameters are known.
-        share: (J,) of the torque limits that is used, to be sure between samples.
+        share: (J,) of the torque limits that is used, as a margin between the samples.
     """
 
     columns: MotionColumns
@@ -101,7 +101,7 @@ class ExcitationTask:
         return phi @ self.beta / self.bounds.torque
 
     def is_feasible(self, x: np.ndarray) -> bool:
-        """Tells whether no limit is broken at the samples."""
+        """Returns whether no limit is broken at the samples."""
         motion = self.series.evaluate_motion(x)
         if np.abs(self.compute_kinematic_shares(x)).max() >= self.series.room:
             return False
@@ -236,7 +236,7 @@ class BarrierProblem:
         return float(value + self.height * walls / len(motion[0]))
 
     def compute_gradient(self) -> np.ndarray:
-        """Computes the gradient at the point whose value was asked for last."""
+        """Computes the gradient at the point whose value was requested last."""
         task = self.task
         motion, s, phi, pull, shares, posture, loads = self._state
         n = len(motion[0])
@@ -265,7 +265,7 @@ Item = TypeVar("Item")
 
 @dataclass(frozen=True)
 class MotionRequest:
-    """What is asked for of an exciting motion.
+    """What is requested of an exciting motion.
 
     Attributes:
         duration: of the motion, s.
@@ -313,7 +313,7 @@ def design_motion(
         column_indices: (k,) columns that matter; None: all.
         beta: (c,) base parameters, where torques are limited.
         progress: called with the share done.
-        prior_information: what logs tell already; the motion adds to it.
+        prior_information: what logs determine already; the motion adds to it.
 
     Raises:
         DataError: limits that no motion keeps to, a bad wish, too few rows.

@@ -1,4 +1,4 @@
-"""The motion that tells two effects apart."""
+"""The motion that distinguishes two effects."""
 
 import itertools
 import math
@@ -56,7 +56,7 @@ class DiscriminationProblem:
 
 @dataclass(frozen=True)
 class Discrimination:
-    """How well a motion tells the two apart.
+    """How well a motion distinguishes the two.
 
     Attributes:
         names: of the effects.
@@ -72,7 +72,7 @@ class Discrimination:
     gain: tuple[float, float]
 
     def format_lines(self) -> list[str]:
-        """Formats how well the motion tells the effects apart, a line for each."""
+        """Formats how well the motion distinguishes the effects, a line for each."""
         return [
             f"{name}: {format_percent(here)} of its torque is explained by neither the model nor "
             f"{other}; best of the random motions {format_percent(there)}; that part is {gain:.3g} "
@@ -88,7 +88,7 @@ class Discrimination:
         ]
 
     def to_json(self) -> dict[str, Any]:
-        """Returns what tells the two effects apart, by effect, as plain data."""
+        """Returns what distinguishes the two effects, by effect, as plain data."""
         return {
             name: {"left": a, "left_random": b, "gain": c}
             for name, a, b, c in zip(

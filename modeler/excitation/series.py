@@ -194,7 +194,7 @@ CRITERIA: dict[str, Criterion] = {
 
 @dataclass(frozen=True, eq=False)
 class PriorInformation:
-    """What logs tell already, in the weights of their fit.
+    """What logs determine already, in the weights of their fit.
 
     Attributes:
         triangle: (r, c) R, R^T R = W^T S^-1 W of their rows.

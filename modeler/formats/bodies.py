@@ -315,7 +315,7 @@ def build_export_parameters(
         if aside := [p.name for p in robot_or_model.fit.parameters if p.sigma is None]:
             notes.append(
                 f"the fit set {', '.join(aside)} aside, at 0: other motion, or a prior "
-                "([parameters.uncertainty]), would tell more"
+                "([parameters.uncertainty]), would show more"
             )
     if fit or not original.total_inertia:  # what a file states stays as it is, whatever it is
         completion, released, more = _find_projection(
@@ -474,7 +474,7 @@ def collect_nominal_values(robot: Robot) -> dict[str, float]:
 def build_prior(
     machine: PhysicalParameters, robot: Robot, original: Original, beta: np.ndarray, C: np.ndarray
 ) -> tuple[Prior, frozenset[str], list[str]]:
-    """Returns what is known without torques; links of which something is; what is to be told."""
+    """Returns what is known without torques; links of which something is; what to report."""
     values, count = collect_nominal_values(robot), len(machine.names)
     mean, S = np.zeros(count), np.zeros((count, count))
     share = robot.uncertainty.get("inertial") or THRESHOLDS.stated_body_deviation
@@ -530,7 +530,7 @@ def _estimate_density(
     mean: np.ndarray,
     fit: tuple[np.ndarray, np.ndarray],
 ) -> tuple[float, str]:
-    """Of capsules, over that of water; what is to be told of it."""
+    """Of capsules, over that of water; what is to be reported about it."""
     known = [link for link in machine.links if link not in unknown]
     if known:
         known_mass = sum(mean[machine.links[link][9]] for link in known)
@@ -563,7 +563,7 @@ def _find_projection(
     fit: tuple[np.ndarray, np.ndarray],
     original: Original,
 ) -> tuple[CompletedParameters, frozenset[str], list[str]]:
-    """What can be built; links on which what hangs must change; what is to be told.
+    """What can be built; links on which what hangs must change; what is to be reported.
 
     Raises:
         DataError: nothing near the values can be built.

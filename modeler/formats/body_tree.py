@@ -80,7 +80,7 @@ class Roundings:
         return np.where(dust, 0.0, values)
 
     def describe_roundings(self) -> Iterator[str]:
-        """Yields what to tell of them."""
+        """Yields what to show of them."""
         if self.angles:
             most = describe_rounded_angles(
                 dict(list(self.angles.items())[: THRESHOLDS.max_names_in_note])
@@ -200,7 +200,7 @@ class TreeJoint:
         zero: position at which `pose` holds, rad or m.
         lower, upper, speed, acceleration, effort: limits; None where the file states none.
         damping: N m s/rad, N s/m. friction: dry, N m, N. armature: rotor inertia as the joint
-            feels it, kg m2, kg. stiffness: of a spring, about `rest`. None: not stated.
+            is subject to it, kg m2, kg. stiffness: of a spring, about `rest`. None: not stated.
         leader: joint that it follows, q = ratio q_leader + offset; "" if it follows none.
         actuated: True if a motor drives it.
     """

@@ -1,6 +1,7 @@
 """Standard parameters of a machine that could be built, from base parameters.
 
-Torques tell beta = K chi alone, N(beta, C). Of chi the rest is known beforehand, chi ~ N(chi_0, S);
+Torques determine beta = K chi alone, N(beta, C). Of chi the rest is known beforehand, chi ~
+N(chi_0, S);
 what was known of beta by it does not count again: the distribution of chi is conditioned on K chi
 = beta, and beta is then what the fit says (Jeffrey's rule),
 
@@ -74,7 +75,7 @@ def compute_completion(
     chi = mean + G @ (beta - K @ mean)
     chi += G @ (beta - K @ chi)  # the rounding of the first step
     rest = np.eye(len(mean)) - G @ K
-    # No difference of covariances: what beta tells is not lost in what was known of it.
+    # No difference of covariances: what beta determines is not lost in what was known of it.
     return CompletedParameters(chi, np.hstack([rest @ _compute_root(S), G @ _compute_root(C)]))
 
 

@@ -499,7 +499,7 @@ def export_robot(
         to: "urdf", "mjcf", "sdf"; "" for that of the original.
         like: the original whose numbers are replaced; None for a file of its own.
         torques: of the logs of the fit, see `held`.
-        equations: of a robot, which are asked for where parameters of bodies are open.
+        equations: of a robot, which are requested where parameters of bodies are open.
 
     Raises:
         DataError: no values, another robot, or what the format cannot state.
@@ -561,7 +561,7 @@ def _build_values(physics: ExportParameters, to: str) -> Iterator[Value]:
 
 
 def _find_too_small(values: Iterable[Value], to: str) -> Iterator[str]:
-    """Tells of bodies that MuJoCo refuses."""
+    """Reports bodies that MuJoCo refuses."""
     bodies: dict[str, list[float]] = {}
     for value in values:
         if value.quantity in TENSOR:

@@ -522,7 +522,7 @@ class _ModelReader:
         posture = keys.get("home", model.qpos0)[model.jnt_qposadr]
         return {self._joints[j]: float(posture[j]) for j in np.flatnonzero(self._single)}
 
-    # What is told.
+    # What is reported.
 
     def _is_disabled(self, *flags: str) -> bool:
         """Whether an `<option><flag>` switches something off."""

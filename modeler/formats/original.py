@@ -154,7 +154,7 @@ class Placement:
     Attributes:
         links: that move, by row.
         joints: row by the name in the file.
-        notes: what is to be told.
+        notes: what is to be reported.
     """
 
     links: Mapping[str, PlacedLinks]
@@ -368,7 +368,7 @@ def _check_ties(
 def _compare_gravity(
     source: OriginalFile, tree: BodyTree, robot: Robot, on: Links
 ) -> Iterator[str]:
-    """Tells of another gravity in the file, in the frame 0 of the robot."""
+    """Reports another gravity in the file, in the frame 0 of the robot."""
     at, robot_gravity = _compute_body_poses(tree, {}), compute_gravity(robot)
     base = next((name for name, (row, _) in on.items() if row == BASE and name in at), None)
     if base is None:

@@ -536,7 +536,7 @@ def convert_gravity(entries: tuple[str, ...], symbols: Symbols, place: TomlCell)
     """Returns the cells of `convert_gravity`: numbers with the letter g where they are about 9.81.
 
     Letters have stand-ins: by these gravity has the usual size, along -z0 where the third entry has
-    letters, else as the sign of the entry says; it is told.
+    letters, else as the sign of the entry says; it is reported.
     """
     cells, letters = list[ParFormula](), list[str]()
     taken = set(symbols.values) | collect_reserved_names(0)
@@ -560,7 +560,7 @@ def convert_gravity(entries: tuple[str, ...], symbols: Symbols, place: TomlCell)
 def _assign_gravity_values(
     cells: Sequence[ParFormula], letters: Sequence[str], symbols: Symbols
 ) -> None:
-    """Give the letters of gravity values; tells where it points by them."""
+    """Give the letters of gravity values; shows where it points by them."""
     known: dict[str, float | str] = {}
 
     def evaluate_entry(k: int, values: Mapping[str, float] = MappingProxyType({})) -> float:

@@ -93,7 +93,7 @@ def _convert_xml(
         raise RobotError(
             f"{path}: is SDF, which is not read; give the URDF that it was made from, or an MJCF"
         )
-    if first == b"mujoco":  # or what one includes, as is told there
+    if first == b"mujoco":  # or what one includes, as is reported there
         from modeler.formats.mjcf import read_mjcf_tree
 
         tree = read_mjcf_tree(path, exact_decimals)

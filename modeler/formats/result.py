@@ -27,7 +27,7 @@ from modeler.robot import Joint
 Torques = Callable[[np.ndarray], tuple[np.ndarray, tuple[str, ...]]]
 """From base parameters to the (rows, n) torques of the fit, and the names of their joints."""
 
-_USUAL = 9.81  # m/s2, of programs that are told no gravity
+_USUAL = 9.81  # m/s2, of programs that get no gravity
 
 
 @dataclass(frozen=True)
@@ -38,8 +38,8 @@ class LostEffect(ShortRepr):
         effect: id; "" of a parameter of no effect.
         joint: row; "" of gravity.
         values: by name, SI.
-        share: of the torque; None of a robot, or where it is not told.
-        of: "joint 2", or "all torques" of shares that C tells.
+        share: of the torque; None of a robot, or where it is not reported.
+        of: "joint 2", or "all torques" of shares that C computes.
     """
 
     effect: str

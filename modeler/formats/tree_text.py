@@ -336,7 +336,7 @@ class _TreeWriter:
         return lines + ([f"spring = [{', '.join(springs)}]"] if springs else [])
 
     def format_parameters(self) -> list[str]:
-        """Returns nominal values, and how sure those of the links are."""
+        """Returns nominal values, and the uncertainty of those of the links."""
         lines, unreliable_bodies, notes = list[str](), list[str](), self.symbols.notes
         notes += self._describe_unreliable_bodies()
         for k, link in enumerate(self.links):
@@ -366,7 +366,7 @@ class _TreeWriter:
             )
         if prior:
             notes.append(
-                f"masses, centres and inertias are a prior, sure to "
+                f"masses, centres and inertias are a prior, with standard deviations of "
                 f"{THRESHOLDS.read_body_deviation:.0%} of their "
                 "scale; all other values are nominal only"
             )
@@ -378,7 +378,7 @@ class _TreeWriter:
         ]
 
     def _describe_unreliable_bodies(self) -> list[str]:
-        """What to tell of bodies that move and that nobody has weighed.
+        """What to show of bodies that move and that nobody has weighed.
 
         A frame without mass on a body that has one says nothing.
         """

@@ -1,7 +1,7 @@
 """URDF: the links and joints of a file as a `BodyTree`.
 
 The schema is that of http://wiki.ros.org/urdf/XML, read as urdfdom reads it. The file is read here
-and not by another library, for those keep neither the digits of a number, which tell a rounded
+and not by another library, for those keep neither the digits of a number, which show a rounded
 pi/2 from a measured angle, nor the line and the bytes where it stands. What becomes of every
 element stands in `urdf_elements.toml`.
 """
@@ -44,7 +44,7 @@ from modeler.robot import LOOP_KINDS, JointKind
 
 Joints = dict[str, TreeJoint]
 Tell = Callable[[str, str], None]
-"""Adds a name to a sentence with {} that is told."""
+"""Adds a name to a sentence with {} that is reported."""
 
 _COUPLED = (
     ("joint", "mimic", "name", "joint"),

@@ -252,7 +252,7 @@ def replace_spans(data: bytes, changes: Mapping[Span, str]) -> bytes:
     return b"".join([*parts, data[at:]])
 
 
-# What a reader makes of every element and attribute of a format, by a table, and what it tells.
+# What a reader makes of every element and attribute of a format, by a table, and what it shows.
 
 
 _NOTHING = ("", "false", "no", "none")
@@ -301,7 +301,7 @@ class ElementTable:
         )
 
     def collect_notes(self, roots: Iterable[tuple[str, Element]]) -> list[str]:
-        """Returns what to tell of files, those that are included behind their own.
+        """Returns what to show of files, those that are included behind their own.
 
         Raises:
             RobotError: the first that is refused.

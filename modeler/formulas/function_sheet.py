@@ -1,7 +1,7 @@
 """Formulas with named intermediate quantities, each written once: a sheet.
 
 A sheet is filled from expressions of a graph. Quantities are proposed with a name, results are
-asked for; which of the proposed names are worth their line is decided by how often a quantity is
+requested; which of the proposed names are worth their line is decided by how often a quantity is
 read and by how long it is. What is read more than once and has no name gets one. The graph knows
 equal functions, so that c3*s2 + s3*c2 is sin(q2 + q3) wherever that angle is among its nodes.
 """
@@ -34,7 +34,7 @@ class Definition:
         section: title under which it stands.
         name: of the quantity.
         ref: reference of its value in the graph.
-        result: True for what was asked for, False for an intermediate quantity.
+        result: True for what was requested, False for an intermediate quantity.
     """
 
     section: str

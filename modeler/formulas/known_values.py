@@ -79,7 +79,7 @@ def check_symbol(name: str, system: PhysicalSystem, where: str) -> None:
     """Refuses what is not a physical parameter or length of the robot.
 
     Raises:
-        RobotError: tells what it may have meant.
+        RobotError: shows what it may have meant.
     """
     names = (*system.letters, *system.vanishing, *system.alone, *system.constants)
     if name not in names:
@@ -336,7 +336,7 @@ def compare_cad(
     sigmas: Mapping[str, float] | None = None,
     unknown_data: Mapping[str, str] | None = None,
 ) -> CadComparison:
-    """Tells which identified quantities disagree with CAD, and which CAD entry would explain it.
+    """Returns which identified quantities disagree with CAD, and which CAD entry would explain it.
 
     z = (d - p(cad)) / sqrt(C_ii + (J S J')_ii); an explanation changes one entry, or two where
     one is not enough, so that chi^2 = r' (C + J S J')^-1 r is least; enough is a chi^2 below its

@@ -200,7 +200,7 @@ _LARGEST = 2**31
 
 @dataclass(frozen=True)
 class Identifiability:
-    """What the coefficients tell of the physical parameters.
+    """What the coefficients determine of the physical parameters.
 
     Attributes:
         letters: all physical parameters.
@@ -228,7 +228,7 @@ def analyse_identifiability(
     points: int = 2,
     seed: int = THRESHOLDS.seed,
 ) -> Identifiability:
-    """Tells which physical parameters those coefficients determine."""
+    """Returns which physical parameters those coefficients determine."""
     slopes = {
         letter: tuple(physical.differentiate_polynomial(poly, letter) for poly in coefficients)
         for letter in physical.letters

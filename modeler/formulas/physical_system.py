@@ -1,4 +1,4 @@
-"""What a fit tells of physical parameters: base parameters, or coefficients, as polynomials."""
+"""What a fit fixes of physical parameters: base parameters, or coefficients, as polynomials."""
 
 import random
 from collections.abc import Iterable, Mapping, Sequence
@@ -269,7 +269,7 @@ class _KnownGeometry:
         """Returns (polynomial of the geometry, names of further factors) of a coefficient.
 
         A quotient of lengths is a polynomial times the inverse of each factor below, so that
-        quotients that depend on each other are told from those that do not.
+        quotients that depend on each other are distinguished from those that do not.
         """
         above, below = sympy.fraction(sympy.together(value))
         number, factors = sympy.factor_list(below)

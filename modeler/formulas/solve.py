@@ -2,7 +2,7 @@
 
 Elimination over Q: a quantity with one unknown gives it; where none is left, an unknown that
 stands linearly in a quantity is taken out of the others. A factor that is zero, or that cannot be
-zero, is told by its value at a consistent random point modulo a prime: so no quotient is 0/0.
+zero, is recognised by its value at a consistent random point modulo a prime: so no quotient is 0/0.
 """
 
 import random
@@ -162,7 +162,7 @@ class _Elimination:
         return steps
 
     def _solve_from_several(self) -> SolvingStep | None:
-        """The unknown that the fewest equations tell, by elimination in these."""
+        """The unknown that the fewest equations determine, by elimination in these."""
         unsolved = set(self.open)
         for letter, needed in self._find_needed_equations():
             self.equations, self.open = [self.defined[i] for i in needed], set(unsolved)
@@ -176,9 +176,9 @@ class _Elimination:
         return None
 
     def _find_needed_equations(self) -> list[tuple[str, list[int]]]:
-        """(letter, equations that tell it, none of them too many), the fewest first.
+        """(letter, equations that determine it, none of them too many), the fewest first.
 
-        They tell x if the unit vector of x is a combination of their rows of the Jacobian.
+        They determine x if the unit vector of x is a combination of their rows of the Jacobian.
         """
         letters = [x for x in self.system.letters if x in self.open]
         columns = [self.system.slopes[x] for x in letters]
@@ -210,7 +210,7 @@ class _Elimination:
         return {self.system.names[i] for i in find_places(poly)} & self.open
 
     def _is_zero(self, poly: Poly) -> bool:
-        """Is it zero for every robot, as far as a consistent random point tells?"""
+        """Is it zero for every robot, as far as a consistent random point shows?"""
         return evaluate_modulo(poly, self.point, self.prime) == 0
 
     def _solve_directly(self, wanted: set[str]) -> SolvingStep | None:
@@ -233,7 +233,7 @@ class _Elimination:
         return SolvingStep(letter, ring.zero, ring.one, best)
 
     def _derive_quotient(self, poly: Poly, letter: str) -> SolvingStep | None:
-        """The letter from a linear equation; None if it is not linear or tells nothing."""
+        """The letter from a linear equation; None if it is not linear or determines nothing."""
         place = self.place[letter]
         if _get_degree(poly, place) != 1:
             return None
@@ -573,9 +573,9 @@ def derive_values(
 
 
 def find_impossible(derived: DerivedValue, system: PhysicalSystem) -> dict[str, str]:
-    """Tells which values no body can have: a mass not above 0, a moment of inertia below 0.
+    """Returns which values no body can have: a mass not above 0, a moment of inertia below 0.
 
-    A moment may be 0; it is told if it is below by more than 3 sigma.
+    A moment may be 0; it is reported if it is below by more than 3 sigma.
     """
     kinds = {}
     for k, letter in enumerate(derived.letters):

@@ -96,7 +96,7 @@ def build_columns(
 ) -> Columns:
     """Returns the columns of arrays: (n,) one, (n, k) and (k, n) k of them, `name[1]` to `name[k]`.
 
-    n is the length that most arrays share; the others are left out, and told.
+    n is the length that most arrays share; the others are left out, and reported.
 
     Raises:
         DataError: no such group, or nothing that could be a log.
@@ -160,7 +160,7 @@ def _find_stated_rate(values: Iterable[tuple[str, Any]]) -> float | None:
 def _select_group(
     path: Path, arrays: Sequence[NamedArray], wanted: ColumnRequest
 ) -> list[NamedArray]:
-    """The arrays inside the group that is asked for, their names from there on."""
+    """The arrays inside the group that is requested, their names from there on."""
     topic = wanted.topic.strip("/")
     if not topic:
         return list(arrays)
@@ -203,7 +203,7 @@ class _ConcatenatedArray:
 
 
 def _concatenate_episodes(arrays: Sequence[NamedArray]) -> tuple[list[NamedArray], list[str]]:
-    """The arrays, those of episodes one after the other, with `segment`; what is told of it.
+    """The arrays, those of episodes one after the other, with `segment`; what is reported about it.
 
     `data/demo_0/q` and `data/demo_1/q` are `data/q`. Groups that only count are episodes if their
     rows differ: those of joints have the same.

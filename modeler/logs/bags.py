@@ -157,7 +157,7 @@ STATES = (
     "control_msgs/DynamicJointState",
     "control_msgs/JointTrajectoryControllerState",
 )
-"""Types of the topics that are taken as the clock where none is asked for, the first before all."""
+"""Types of the topics that are taken as the clock where none is requested, the first before all."""
 
 _NAMES = ("name", "joint_names")  # lists of text that say which entry of an array is whose
 _PIECE = 2**24  # bytes that are unpacked at a time, to be counted
@@ -185,7 +185,7 @@ class TopicMessages:
 
     @property
     def has_stamps(self) -> bool:
-        """Returns True if the headers tell the time: all of them do, and it passes."""
+        """Returns True if the headers show the time: all of them do, and it passes."""
         return min(self.headers) > 0 and (len(self.headers) < 2 or len({*self.headers}) > 1)
 
     def get_stamps(self, by_header: bool) -> np.ndarray:
@@ -286,7 +286,7 @@ class Recording:
 def _choose_clock(
     path: object, parts: Sequence[TopicMessages], wanted: ColumnRequest
 ) -> TopicMessages:
-    """The topic that is asked for, else the only JointState, else the only one."""
+    """The topic that is requested, else the only JointState, else the only one."""
     parts = [part for part in parts if len(part.rows) >= THRESHOLDS.min_messages] or list(parts)
     topics = [part.topic for part in parts]
     listed = ", ".join(dict.fromkeys(topics)) or "none with numbers"

@@ -1,4 +1,4 @@
-"""What every format gives: named columns of one length, read when they are asked for."""
+"""What every format gives: named columns of one length, read when they are requested."""
 
 import errno
 import warnings
@@ -70,7 +70,7 @@ class Columns:
         rows: of every column.
         units: that the file states: name -> text.
         notes: what was left out or joined, one sentence each.
-        reading_notes: how it was read, one sentence each: nothing to doubt.
+        reading_notes: how it was read, one sentence each: nothing to warn of.
         streams: topics or groups, if the file has such.
         rate: Hz, that the file states of its rows; None if it does not.
     """

@@ -118,7 +118,7 @@ def join_episodes(
         first: `index` of the first row of the file.
 
     Returns:
-        The table, and what is told of it.
+        The table, and what is reported about it.
     """
     if dataset is None or dataset.fps is None or not {*_CLOCK} <= set(table.column_names):
         return table, ()
@@ -150,7 +150,7 @@ def rename_by_joint_names(table: pa.Table) -> tuple[pa.Table, tuple[str, ...]]:
     `name[1]` that holds "elbow" makes `position[1]` to `position[elbow]`.
 
     Returns:
-        The table, and what is told of it.
+        The table, and what is reported about it.
     """
     families: dict[str, dict[str, str]] = {}  # template -> label -> column
     for name in table.column_names:

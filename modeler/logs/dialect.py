@@ -1,4 +1,4 @@
-"""How a text file writes its columns: told by its first lines, for whoever reads the others."""
+"""How a text file writes its columns: determined from its first lines."""
 
 import codecs
 import csv
@@ -243,7 +243,7 @@ def _detect_marks(lines: Sequence[str], path: Path) -> tuple[str, str]:
         return ",", "."
     delimiter, decimal = best
     if delimiter != "," and decimal == "." and not re.search(r"\d\.\d", "\n".join(last)):
-        with path.open("rb") as file:  # whole numbers here: others may tell
+        with path.open("rb") as file:  # whole numbers here: others may show
             file.seek(path.stat().st_size // 2)
             later = file.read(THRESHOLDS.sampled_bytes)
         if re.search(rb"\d,\d", later):

@@ -62,7 +62,7 @@ class Guess:
 
     Attributes:
         quantity: our name of it: "time", "q", "tau", ...
-        template: name of the columns, "{}" for what tells joints apart.
+        template: name of the columns, "{}" for what distinguishes joints.
         labels: of the columns, in their order; ("",) without.
         units: of the columns, guessed or stated; "" for SI.
         why: why those units.
@@ -280,7 +280,7 @@ def _split_words(template: str) -> list[str]:
 
 
 def _is_commanded(words: Sequence[str]) -> bool:
-    """True of what a controller wants, not of what was measured: the last such word decides."""
+    """True of what a controller needs, not of what was measured: the last such word decides."""
     if words[1:] and words[-1] == "d":  # as libfranka calls what is desired: q_d, tau_J_d
         return True
     for word in reversed(words):

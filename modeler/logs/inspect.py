@@ -1,4 +1,4 @@
-"""What is in a log: clock, channels, doubts and where they lie."""
+"""What is in a log: clock, channels, warnings and where they lie."""
 
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -124,7 +124,7 @@ class LogInspection(Result):
         warnings: what contradicts itself or looks like another unit.
         suggested: a [log] to paste, guessed; "" if a mapping is there already.
         suggested_without_ranges: the same without what ranges say of positions.
-        range_warnings: doubts about positions that rest on their range alone.
+        range_warnings: warnings about positions that rest on their range alone.
         time: (n,) s, or row numbers without a clock; of a long log at the extremes of each block.
         steps: (2, m) times, and steps of the clock up to them, s; of a long log the extremes.
         values: (n,) of every channel, in its unit.
@@ -557,7 +557,7 @@ def _describe_clock(clock: Clock | None, coarse: str) -> list[str]:
     return lines
 
 
-# Where in a log what is doubtful lies: stretches of its time.
+# Where in a log what is doubtful lies: segments of its time.
 
 
 MOST = 100
@@ -569,7 +569,7 @@ DRIVEN = ("tau", "current", "duty")
 
 @dataclass(frozen=True)
 class Mark:
-    """A stretch of a log of which something is said.
+    """A segment of a log of which something is said.
 
     Attributes:
         kind: "gap", "back", "repeated", "missing", "limit" of what drives; of a robot also what

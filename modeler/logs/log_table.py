@@ -35,17 +35,17 @@ def _list_motion_names(joints: Sequence[JointSpec]) -> set[str]:
 
 
 class LogTable:
-    """The columns of one log by our names; numbers are converted when they are asked for.
+    """The columns of one log by our names; numbers are converted when they are requested.
 
     Attributes:
         path: of the file.
         names: our names of mapped columns, and the file's of all others.
         whole: True if these are all rows of the file.
         before: rows of the file that stand before these.
-        rated: True if time is counted from the rate, for want of a column.
+        rated: True if time is counted from the rate, for lack of a column.
         rows: of every column.
         notes: what reading left out, one sentence each.
-        reading_notes: how it was read, one sentence each: nothing to doubt.
+        reading_notes: how it was read, one sentence each: nothing to warn of.
     """
 
     def __init__(

@@ -359,7 +359,7 @@ def read_columns(path: Path, wanted: ColumnRequest) -> Columns:
     try:
         path.stat()
     except FileNotFoundError:
-        pass  # told below
+        pass  # reported below
     except OSError as error:
         raise DataError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     if wanted.files and not path.is_file():

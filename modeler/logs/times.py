@@ -74,7 +74,7 @@ def find_stamp_pairs(names: Iterable[str]) -> dict[str, tuple[str, str, float]]:
 def join_stamps(
     columns: Sequence[tuple[str, Column]],
 ) -> tuple[tuple[tuple[str, Column], ...], dict[str, str], tuple[str, ...]]:
-    """Returns the columns, a time before the two that make it; its unit, what is told of it."""
+    """Returns the columns, a time before the two that make it; its unit, notes on it."""
     by_name, notes = dict(columns), list[str]()
     made: dict[str, tuple[str, JoinedStamp]] = {}
     for name, (seconds, fraction, unit) in find_stamp_pairs(by_name).items():
@@ -106,7 +106,7 @@ def describe_coarse_clock(time: np.ndarray, channels: Iterable[np.ndarray]) -> s
 
     Else nothing.
 
-    Rows are even if a rate tells every change of the time to a row and a half. A row that repeats
+    Rows are even if a rate shows every change of the time to a row and a half. A row that repeats
     all channels too was written twice.
 
     Args:

@@ -28,7 +28,7 @@ class RowFilter(ShortRepr):
 
     The equation holds for any F, so no choice of it biases beta. Weights are not negative and have
     a finite reach; samples that may not be used get weight 0 and the others are scaled up to sum
-    one, so neither the ends of a segment nor a masked stretch smears into its neighbours.
+    one, so neither the ends of a segment nor a masked segment smears into its neighbours.
 
     Attributes:
         weights: (rows, samples) sparse, each row sums to at most 1.

@@ -32,7 +32,7 @@ class DroppedColumn:
                 "move the joints it belongs to"
             )
         return (
-            f"{self.name} cannot be told from {', '.join(self.into)} on these data (pivot "
+            f"{self.name} cannot be distinguished from {', '.join(self.into)} on these data (pivot "
             f"{self.pivot:.1g}, tolerance {THRESHOLDS.min_pivot:g}): it is set to 0 and they carry "
             "its effect; record a motion that moves all joints over a wide range"
         )
@@ -351,7 +351,7 @@ class ObjectiveFunction:
 
     Attributes:
         value: f(x), infinite outside of the set.
-        slope: its gradient where it is finite; called at the point last asked for.
+        slope: its gradient where it is finite; called at the point last requested.
         reach: how far from x along d the set's flat walls stand, in lengths of d.
     """
 
@@ -458,7 +458,7 @@ def minimise_cma_es(
     N. Hansen, The CMA Evolution Strategy: A Tutorial, arXiv:1604.00772, appendix A.
 
     Args:
-        value: to be made small; any point may be asked for.
+        value: to be made small; any point may be requested.
         x: where it begins.
         size: standard deviation of the first points.
         generations: at most so many.

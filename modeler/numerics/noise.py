@@ -50,7 +50,7 @@ def compute_outlier_threshold(departed: np.ndarray, resolution: float, share: fl
     times what a share of the values exceeds, and `STEPS` resolution steps.
 
     Args:
-        departed: (n,) `subtract_running_median` of the channel, of all its stretches.
+        departed: (n,) `subtract_running_median` of the channel, of all its segments.
         resolution: its smallest step.
         share: of the values that may be lone, 8 at least.
     """
@@ -72,7 +72,7 @@ def compute_local_threshold(departed: Sequence[np.ndarray], floor: float, share:
     What happens again and again in a part is no lone value there, however quiet the rest is.
 
     Args:
-        departed: (n,) `subtract_running_median` of the stretches of the part.
+        departed: (n,) `subtract_running_median` of the segments of the part.
         floor: `compute_outlier_threshold` of the whole channel.
         share: of the values that may be lone.
     """
@@ -88,7 +88,7 @@ def find_isolated_outliers(departed: np.ndarray, floor: float) -> np.ndarray:
     """Finds the places of isolated outliers of one segment, increasing.
 
     Args:
-        departed: (n,) `subtract_running_median` of the stretch.
+        departed: (n,) `subtract_running_median` of the segment.
         floor: what they exceed, besides `NEAR` times the fourth largest within 30 samples. The
             first and the last ten are not judged: a machine that is just switched on leaps too, and
             the start-up of the position filter costs these samples anyway.
@@ -110,14 +110,15 @@ def compute_nearby_level(size: np.ndarray, place: int) -> float:
     return float(np.partition(window, order)[order])
 
 
-# What noise does not do: return in the next lap, last, come in outbursts.
+# What noise does not do: return in the next lap, last, come in bursts.
 
 
 def compute_noise_memory(cutoff: float) -> float:
     """Returns the correlation time, s, of noise behind a parallel filter (cut-off in Hz, 0: none).
 
     Torque noise and quantisation are forgotten within a tenth of a second; a brake that drags, a
-    cable that pulls, a temperature are not. Rows of a narrow band remember longer by themselves.
+    cable that pulls, a temperature are not. Rows of a narrow band are correlated longer by
+    themselves.
     """
     return (
         max(THRESHOLDS.min_correlation_time, THRESHOLDS.correlation_periods / cutoff)

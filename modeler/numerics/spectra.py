@@ -33,7 +33,7 @@ def estimate_residual_spectrum(
 
     Args:
         time: (n,) s.
-        segment: (n,) number of the evenly sampled stretch of each row.
+        segment: (n,) number of the evenly sampled segment of each row.
         e: residual on all rows, (n,), NaN where the row does not count.
     """
     pieces, period = _collect_segments(time, segment, e)

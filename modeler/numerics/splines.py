@@ -25,7 +25,7 @@ class NonparametricBaseline:
     """What a fit without physics predicts of the residual of one joint.
 
     Attributes:
-        prediction: (n,) of the residual, N m or N; each row by fits to other stretches of time.
+        prediction: (n,) of the residual, N m or N; each row by fits to other segments of time.
         share: of the residual's variance that it predicts, between 0 and 1.
         sigma: standard error of the share.
         alone: the share by each set of functions alone; without sets that are constant.
@@ -56,7 +56,7 @@ def fit_nonparametric_baseline(
     Args:
         sets: names and (n, p) values of functions; one at a time is in memory.
         residual: (n,), in order of time.
-        fold: (n,) whole numbers; a fold is made of stretches much longer than noise lasts.
+        fold: (n,) whole numbers; a fold is made of segments much longer than noise lasts.
     """
     mean = float(residual.mean()) if residual.size else 0.0
     y = residual - mean
@@ -228,7 +228,7 @@ def build_drift_functions(time: np.ndarray, run: np.ndarray, knots: int = 5) -> 
     return np.hstack([build_hat_functions(time, knots) * rows[:, None] for rows in is_of_log.T])
 
 
-# What the flexible rival reads: functions of all that was measured, whatever their cause.
+# What the nonparametric baseline reads: functions of all that was measured, whatever their cause.
 
 
 SLIPS = (0.001, 0.01, 0.1)

@@ -149,7 +149,7 @@ def _build_one_step_table(steps: TwoStepFit) -> MethodTable:
     errors = [format_percent(fit.relative_error) for fit in (two, one)]
     text, why = (
         "{} in two steps, {} in one",
-        "joints that stand with dry friction tell nothing of J12",
+        "joints that stand with dry friction show nothing of J12",
     )
     rows = (
         MethodRow("parameters found", "-", text.format(*known), Outcome.SHOWN, why),

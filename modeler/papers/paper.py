@@ -50,7 +50,7 @@ SLIPS = {
     "count": "counted otherwise, no error",
     "scan": "the scanned text may be at fault, not the paper",
 }
-"""Why a print differs, as it is told."""
+"""Why a print differs, as it is reported."""
 
 
 @dataclass(frozen=True)
@@ -183,7 +183,7 @@ def _build_line(entry: Mapping[str, Any]) -> PrintedLine:
 
 # What is derived of a robot, in the form in which quotations are compared with it.
 #
-# Numbers and sets of names are asked for in a small arithmetic: `count(zero("*11"))`,
+# Numbers and sets of names are requested in a small arithmetic: `count(zero("*11"))`,
 # `count(base) - 3`, `100*b/abs(a)`: names, calls, sums and products, and comparisons for what must
 # hold.
 

@@ -81,7 +81,7 @@ def compute_margin(processing: ChosenProcessing, step: float) -> int:
     """Returns rows beside a chunk that filters and searches of its own rows reach.
 
     Zero-phase filtering of a chunk then differs from that of the whole log by what the position
-    filter remembers after `MEMORY` periods, exp(-12 x 2.4) = 3e-13 of the motion within them.
+    filter depends after `MEMORY` periods, exp(-12 x 2.4) = 3e-13 of the motion within them.
 
     Args:
         processing: of the log.
@@ -127,7 +127,7 @@ def read_chunks_between(source: Source, numbers: range, size: int, margin: int) 
     """Yields some of those chunks, of a log that can be read from any row; the same to the bit.
 
     Args:
-        source: whose windows begin at the very row that is asked for.
+        source: whose windows begin at the very row that is requested.
         numbers: of the chunks, from 0, one after the other.
         size: as of `read_chunks`.
         margin: as of `read_chunks`.
@@ -207,13 +207,13 @@ def read_part(source: FileSource, spec: ModuleSpec, start: float | None, end: fl
 
 
 SPREAD = 2**20
-"""Rows of a log from which on a diagnosis looks at stretches of it."""
+"""Rows of a log from which on a diagnosis looks at segments of it."""
 
 _ROWS, _PARTS = 2**18, 32  # that are kept of it
 
 
 def read_spread(source: FileSource, spec: ModuleSpec) -> Log:
-    """Returns evenly spread stretches of a log of more than `SPREAD` rows, as its segments.
+    """Returns evenly spread segments of a log of more than `SPREAD` rows, as its segments.
 
     All rows are read: the fingerprint and what channels hold are those of the whole log.
 
@@ -232,7 +232,7 @@ def read_spread(source: FileSource, spec: ModuleSpec) -> Log:
     parts, last, span = _read_parts(source, spec, there)
     rows, least = sum(log.rows for log in parts), min(log.rows for log in parts)
     note = (
-        f"{source.rows} rows; {rows} of them are looked at, in {len(parts)} stretches of "
+        f"{source.rows} rows; {rows} of them are looked at, in {len(parts)} segments of "
         f"{least * last.step:.3g} s that are spread evenly over {span[1] - span[0]:.6g} s"
     )
     return dataclasses.replace(join_windows(parts), notes=(*last.notes, note), content=last.content)

@@ -115,7 +115,7 @@ class DerivativeDelay:
 def estimate_delays(
     pieces: Sequence[RawSegment], joints: Sequence[str], column: Column, lower: str, cutoff: float
 ) -> tuple[list[DerivativeDelay], np.ndarray]:
-    """Returns what is late, and (joints,) s by which each column is; 0 if small or not to be told.
+    """Returns what is late, and (joints,) s by which each column is; 0 if small or unknown.
 
     A delay is that which makes the sum of the absolute differences least, between the window means
     of the logged derivative and the difference quotients. Gross errors of a few samples do not
@@ -293,11 +293,11 @@ def check_derivatives(
     - a quarter of the joint's derivative, sqrt(sum d^4 / sum d^2): its size while it moves,
     - 5 resolution steps of the lower signal, divided by T.
     Noise and rounding stay below the first and the last, discretisation below the second. A delay
-    of a joint, or of all alike, is taken out before and told from 3/4 of a sample on.
+    of a joint, or of all alike, is taken out before and reported from 3/4 of a sample on.
 
     Args:
         log: as read: resampling hides the resolution of its columns.
-        pieces: its uniform pieces, with logged qd and perhaps qdd.
+        pieces: its uniform pieces, with logged qd and possibly qdd.
         parallel_cutoff: Hz; 0: windows of 7 samples.
         refuse: a column that is wrong throughout is an error; otherwise all its samples may pass.
 

@@ -36,7 +36,7 @@ class Defect:
         start: first sample after it; of a spike or frozen values the first bad one.
         stop: sample after the last bad one; `start` if none is bad.
         size: in the channel's unit, with its sign; of a spike the largest departure.
-        time: s, of the start, once that is a row of the log and no sample of a stretch.
+        time: s, of the start, once that is a row of the log and no sample of a segment.
     """
 
     kind: Kind
@@ -47,7 +47,7 @@ class Defect:
 
 
 Spikes = list[list[list[Defect]]]
-"""By joint and stretch."""
+"""By joint and segment."""
 
 
 def find_spikes(
@@ -62,7 +62,7 @@ def find_spikes(
         floors: (J,) of the whole log, of which these are a part; None: they are all of it.
 
     Returns:
-        The spikes, and departures (J,) below which no value is one; None without stretches.
+        The spikes, and departures (J,) below which no value is one; None without segments.
     """
     if not stretches:
         return [], floors
@@ -117,7 +117,7 @@ class TorqueScales:
 def compute_torque_scales(
     torques: Sequence[np.ndarray], speeds: Sequence[np.ndarray]
 ) -> TorqueScales:
-    """Returns the scales of the stretches (n, J) of a whole log, one at least."""
+    """Returns the scales of the segments (n, J) of a whole log, one at least."""
     low, high = np.quantile(np.concatenate(torques), [0.01, 0.99], axis=0)
     return TorqueScales(high - low, np.quantile(np.abs(np.concatenate(speeds)), 0.98, axis=0))
 
@@ -128,16 +128,16 @@ def select_unexplained(
     speeds: Sequence[np.ndarray],
     scales: TorqueScales,
 ) -> Spikes:
-    """Returns the spikes of torques that no motion and no blow explains.
+    """Returns the spikes of torques that no motion and no impact explains.
 
-    A torque that is real moves its joint, and a blow is felt in several joints. Where a joint
+    A torque that is real moves its joint, and an impact shows in several joints. Where a joint
     turns back or sticks, friction makes peaks of its own, which stay within the range of the
     channel (1 % to 99 % of its values).
 
     Args:
         spikes_by_joint: by `find_spikes` of the torques.
-        torques: (n, J) by stretch; a joint without a measured torque is all 0.
-        speeds: (n, J) by stretch.
+        torques: (n, J) by segment; a joint without a measured torque is all 0.
+        speeds: (n, J) by segment.
         scales: in the whole log.
     """
     if not any(spikes for by_joint in spikes_by_joint for spikes in by_joint):
@@ -234,10 +234,10 @@ def scan_jumps(
     resolution: np.ndarray,
     logged: np.ndarray,
 ) -> EncoderJumpScan:
-    """Returns the steps of one stretch without gaps.
+    """Returns the steps of one segment without gaps.
 
     Args:
-        time: (n,) s, more than `LEAST`: a shorter one does not tell.
+        time: (n,) s, more than `LEAST`: a shorter one does not show.
         q: (n, J) rad or m, all finite.
         revolute: (J,) joints that may wrap.
         resolution: (J,) smallest step of each.
@@ -264,7 +264,7 @@ def scan_jumps(
 
 
 def compute_jump_floors(walks: Sequence[EncoderJumpScan], resolution: np.ndarray) -> np.ndarray:
-    """Returns (J,) rad or m that a step must have too much to be a jump, over all stretches.
+    """Returns (J,) rad or m that a step must have too much to be a jump, over all segments.
 
     What is lone, and more than the step that the joint makes at its top speed: a smaller leap is
     no more than a sample too late or too early.
@@ -320,7 +320,7 @@ def find_jumps(walk: EncoderJumpScan, time: np.ndarray, j: int, floor: float) ->
     """Returns the leaps of joint j, increasing in time.
 
     Args:
-        walk: one stretch.
+        walk: one segment.
         time: (n,) s.
         j: index of the joint.
         floor: of that joint.

@@ -47,7 +47,7 @@ class ChannelScales:
         leaps: (J,) what a step must have too much to be a leap.
         torque: and the speeds; None where no torque is measured.
         floors: (J,) departure below which no value is a spike, of "tau" and logged "qd" and "qdd";
-            None where the log has no stretch of them.
+            None where the log has no segment of them.
         repeats: True if rows repeat, as the recorder is faster than the robot.
         clips: (J,) ends of the range at which each position is cut off.
         stays: (J,) samples for which each torque may stay the same.
@@ -79,7 +79,7 @@ def repair_log(
 
     Rows that repeat the one before them in all channels are dropped, so that the rate of what is
     left is the robot's. Wraps are counted on, and positions that begin to count from another zero
-    are joined to the longest stretch. Spikes, frozen and clipped values become missing ones. Where
+    are joined to the longest segment. Spikes, frozen and clipped values become missing ones. Where
     rows are missing and the clock ran on, a new piece begins. Held values are interpolated.
 
     Args:
@@ -210,7 +210,7 @@ def _find_frozen(log: Log, held: Sequence[int]) -> list[list[Defect]]:
 def _find_all_jumps(
     log: Log, spec: ModuleSpec, scales: ChannelScales | None, quick: Sequence[bool]
 ) -> tuple[list[list[Defect]], list[np.ndarray], np.ndarray, np.ndarray]:
-    """Returns jumps of positions by joint, the stretches that were scanned, steps and floors."""
+    """Returns jumps of positions by joint, the segments that were scanned, steps and floors."""
     positions: list[list[Defect]] = [[] for _ in spec.joints]
     revolute = np.array([joint.kind == "revolute" for joint in spec.joints])
     steps = (
@@ -239,14 +239,14 @@ def _find_all_jumps(
 
 
 def _iterate_stretches(log: Log, there: np.ndarray) -> Iterator[np.ndarray]:
-    """Yields rows (k,) of each stretch without a gap among those that are there (n,)."""
+    """Yields rows (k,) of each segment without a gap among those that are there (n,)."""
     rows = np.flatnonzero(there)
     cut = (np.diff(log.time[rows]) > log.gap) | (np.diff(log.piece_number[rows]) != 0)
     yield from np.split(rows, np.flatnonzero(cut) + 1)
 
 
 def _locate_defect(defect: Defect, rows: np.ndarray, log: Log) -> Defect:
-    """Returns what was found in a stretch, at rows (k,) of the log."""
+    """Returns what was found in a segment, at rows (k,) of the log."""
     start = int(rows[defect.start])
     stop = int(rows[defect.stop - 1]) + 1 if defect.stop > defect.start else start
     return dataclasses.replace(defect, start=start, stop=stop, time=float(log.time[start]))
@@ -255,13 +255,13 @@ def _locate_defect(defect: Defect, rows: np.ndarray, log: Log) -> Defect:
 def _locate_defects(
     by_stretch: Sequence[Sequence[Defect]], stretches: Sequence[np.ndarray], log: Log
 ) -> list[Defect]:
-    """Returns what was found in some stretches, at rows of the log."""
+    """Returns what was found in some segments, at rows of the log."""
     pairs = zip(by_stretch, stretches, strict=True)
     return [_locate_defect(one, rows, log) for defects, rows in pairs for one in defects]
 
 
 def _join_positions(q: np.ndarray, leaps: Sequence[Defect], parts: Sequence[np.ndarray]) -> None:
-    """Counts positions (n,) on, in place, from the longest stretch between two leaps."""
+    """Counts positions (n,) on, in place, from the longest segment between two leaps."""
     for rows in parts:
         offset, edges = np.zeros(len(rows)), [0]
         for leap in leaps:

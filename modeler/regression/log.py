@@ -202,7 +202,7 @@ def check_no_overlap(
 
     Args:
         logs: as they were read, or their reports.
-        holdout: of which errors are to be told.
+        holdout: of which errors are to be reported.
         places: what the user typed for `logs`; none: their names.
 
     Raises:
@@ -229,7 +229,7 @@ def check_no_overlap(
 
 @dataclass(frozen=True, eq=False)
 class RawSegment:
-    """One uniform stretch of a log, before differentiation; n samples.
+    """One uniform segment of a log, before differentiation; n samples.
 
     Attributes:
         run: index of its log.
@@ -496,6 +496,6 @@ def find_saturated(
 
 
 def find_runs(flags: np.ndarray) -> list[tuple[int, int]]:
-    """Returns [start, stop) of each stretch of True in flags (n,)."""
+    """Returns [start, stop) of each segment of True in flags (n,)."""
     edges = np.flatnonzero(np.diff(flags.astype(np.int8), prepend=0, append=0)).tolist()
     return list(zip(edges[::2], edges[1::2], strict=True))

@@ -160,7 +160,7 @@ CAUSES = (EDGE, MISSING, BRIDGES, CONTRADICTED, SATURATED, OPEN)
 
 @dataclass(frozen=True, eq=False)
 class Segment(ShortRepr):
-    """One uniform stretch of motion, ready for the model; n samples.
+    """One uniform segment of motion, ready for the model; n samples.
 
     Attributes:
         run: index of its log.
@@ -235,7 +235,7 @@ def build_segment(piece: RawSegment, processing: Processing) -> Segment | None:
     logged accelerations are used as they are.
 
     Args:
-        piece: a uniform stretch; its qd, qdd are None where they must come from q.
+        piece: a uniform segment; its qd, qdd are None where they must come from q.
         processing: with `position_cutoff` chosen.
     """
     cutoff = min(processing.position_cutoff or 0.0, THRESHOLDS.max_cutoff_share / piece.step)
@@ -321,7 +321,7 @@ def differentiate_positions(q: np.ndarray, step: float) -> np.ndarray:
 def _differentiate_wide(q: np.ndarray, step: float) -> np.ndarray:
     """Returns velocities (n, joints) over five samples, of error (omega step)^4 / 30.
 
-    What a motor induces is many times the friction that is asked for: at 30 Hz, the half percent
+    What a motor induces is many times the friction that is requested: at 30 Hz, the half percent
     that differences over three samples lose of a motion of 1 Hz would be a tenth of it.
     """
     qd = np.gradient(q, step, axis=0)

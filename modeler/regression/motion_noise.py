@@ -2,7 +2,7 @@
 
 What is differentiated twice to give accelerations is known only up to the frequency at which the
 motion drowns in the noise of its sensor. One object says where that is, joint by joint; cut-offs,
-masks, sigmas, doubts and the diagnosis read it.
+masks, sigmas, warnings and the diagnosis read it.
 """
 
 import dataclasses
@@ -26,7 +26,7 @@ from modeler.regression.motion import ChosenProcessing
 from modeler.regression.thresholds import THRESHOLDS
 
 MEASURED = ("accelerations", "speeds", "positions")
-"""What noise is told of, by the number of derivatives from it to the acceleration."""
+"""What noise is reported of, by the number of derivatives from it to the acceleration."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class ChannelNoise(ShortRepr):
         moves: False at rest.
         density: one-sided power density of its noise, unit^2/Hz; of speeds (unit/s)^2/Hz.
         deviation: standard deviation of white noise of that density.
-        hides_above_hz: where the noise hides the motion; None if there is too little to tell.
+        hides_above_hz: where the noise hides the motion; None if there is too little to show.
         step: resolution of what was measured; 0: none.
         colour: noise grows as f^-colour towards low frequencies; 0 for white.
         band_hz: of its motion.
@@ -321,9 +321,9 @@ def _estimate_spectral_slope(f: np.ndarray, S: np.ndarray) -> float:
 def estimate_motion_bands(piece: RawSegment, measured: MotionSpectrum) -> np.ndarray:
     """Returns (J,) Hz below which 99 % of the velocity's energy lies; NaN of joints at rest.
 
-    What counts is the power above white noise, up to where the joint rings or trembles; where
-    positions were commanded, up to the band of the command. The window's own width 2/T is taken
-    off in quadrature, or a piece of half a second would look fast.
+    What counts is the power above white noise, up to where the joint rings or shows excess
+    high-frequency torque; where positions were commanded, up to the band of the command. The
+    window's own width 2/T is taken off in quadrature, or a piece of half a second would look fast.
 
     Args:
         piece: of a log.
@@ -518,8 +518,8 @@ class Bands(ShortRepr):
         widest: Hz of both filters, as the motion alone asks for; empty where one was given.
         chosen_by: sentences.
         limited_by: joint that they were lowered for; None if the parallel filter is the widest.
-        trembling: how many times as much as the measured torque that of the model trembles behind
-            the first filters of which it is too much; 0 if behind none.
+        trembling: how many times as much as the measured torque the model's torque varies from row
+            to row behind the first filters of which it is too much; 0 if behind none.
         trembling_left: the same behind the filters that were chosen.
         widest_values: (c,) base parameters behind the widest filters; empty where they were chosen.
     """

@@ -193,7 +193,7 @@ class ModelRegressor:
     def compute_triangles(
         self, part: FilteredSegment, use: np.ndarray, state: Triangles | None
     ) -> Triangles:
-        """Returns triangles of the rows of a stretch whose rows are samples; use (rows, n) bool."""
+        """Returns triangles of the rows of a segment whose rows are samples; use (rows, n) bool."""
         some = np.flatnonzero(use.any(axis=1))
         s, w = part.segment, part.rows.centres[some]
         part_triangles = self._model.triangles(
@@ -261,7 +261,7 @@ def build_observation(
 
 
 def build_no_row_error(report: DataReport) -> DataError:
-    """Returns what is told of logs without a usable row."""
+    """Returns what is reported about logs without a usable row."""
     notes = [f"{log.name}: {note}" for log in report.logs for note in log.notes]
     return DataError(
         f"{', '.join(log.name for log in report.logs)}: no usable row is left: "
@@ -292,7 +292,7 @@ def assemble_observation(
     stretches: tuple[FilteredSegment, ...],
     report: DataReport,
 ) -> Observation:
-    """Returns the rows of some stretches of logs of these names, with what is told of them."""
+    """Returns the rows of some segments of logs of these names, with notes on them."""
     motion = np.concatenate([_filter_motion(part) for part in stretches])
     counts = [len(part.rows.centres) for part in stretches]
     return Observation(
@@ -385,7 +385,7 @@ KEPT = 2**26
 
 
 def is_streamed(observation: Observation) -> bool:
-    """Returns True if W is not built: it would be large, and nobody has asked for it yet.
+    """Returns True if W is not built: it would be large, and nobody has requested it yet.
 
     What passes by is the regressor of a compiled model; another one is kept.
     """
@@ -442,11 +442,11 @@ def add_stretch(
     keep: np.ndarray,
     state: Triangles,
 ) -> Triangles:
-    """Returns triangles with the rows of a stretch added.
+    """Returns triangles with the rows of a segment added.
 
     Args:
         regressor: over its samples.
-        part: the stretch.
+        part: the segment.
         torque: (rows, n) filtered.
         keep: (rows, n) bool.
         state: before.
@@ -465,7 +465,7 @@ def add_stretch(
 
 
 def is_unfiltered(part: FilteredSegment) -> bool:
-    """Returns True if the rows of a stretch are samples: no parallel filter."""
+    """Returns True if the rows of a segment are samples: no parallel filter."""
     return len(part.rows.weights.data) == len(part.rows.centres)
 
 

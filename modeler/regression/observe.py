@@ -225,7 +225,7 @@ def limit_cutoffs(model: CompiledModel, prepared: PreparedLogs, asked: Processin
     Args:
         model: the compiled robot.
         prepared: the logs, with the widest cut-offs.
-        asked: the processing that was asked for; a cut-off that it gives stays.
+        asked: the processing that was requested; a cut-off that it gives stays.
     """
     if asked.parallel_cutoff is not None or not prepared.noise.moving:
         return prepared
@@ -265,7 +265,7 @@ def widen_search(search: "CutoffSearch", is_fixed: bool) -> "CutoffSearch":
     """Returns the logs with later floors of the noise, where the torques follow the motion.
 
     What a controller leaves of a motion may be flat for octaves before it falls, and so may the
-    noise of a slow sensor: positions do not tell which it is, torques do.
+    noise of a slow sensor: positions do not distinguish which it is, torques do.
 
     Args:
         search: at the logs, with the first floors.
@@ -426,11 +426,12 @@ class CutoffSearch(ShortRepr):
 
 @dataclass(frozen=True)
 class ChatterFreeCutoffs(ShortRepr):
-    """Cut-offs behind which a model's torque does not tremble.
+    """Cut-offs behind which a model's torque has no excess high-frequency content.
 
     Attributes:
         position, parallel: Hz.
-        left: how many times as much as the measured torque that of the model trembles there.
+        left: how many times as much as the measured torque the model's torque varies from row to
+            row there.
         most: the same behind the first filters of which it is too much; 0 if behind none.
         joint: of that; None without.
     """
@@ -520,7 +521,7 @@ class WeightedFit(ShortRepr):
         return {j: float(np.mean(torque[:, j] ** 2)) for j in self.rows.driven}
 
 
-# How a model's torque trembles, and how much of that the measured one does.
+# How much high-frequency content a model's torque has, and how much of that the measured one does.
 
 
 def compute_chatter_ratios(rows: Observation, model: np.ndarray) -> dict[int, float]:
@@ -538,7 +539,7 @@ def compute_chatter_ratios(rows: Observation, model: np.ndarray) -> dict[int, fl
 
 
 def compute_coherence(rows: Observation, model: np.ndarray) -> float:
-    """Returns the share of the trembling of a model's torque (s, n) that the measured one has.
+    """Returns the share of a model's high-frequency torque (s, n) that the measured one has.
 
     sum of b m over the sum of m^2, b and m second differences of the measured and of the model's
     torque, each joint in units of its torque: 1 of a motion, 0 of noise of its sensor.

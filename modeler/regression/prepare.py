@@ -565,11 +565,11 @@ def choose_cutoffs(
 
 
 def round_to_two_digits(value: float) -> float:
-    """Returns as it is told, and used."""
+    """Returns as it is reported, and used."""
     return float(f"{value:.2g}")
 
 
-# Samples whose positions do not close the loops: told, and left out.
+# Samples whose positions do not close the loops: reported, and left out.
 #
 # Noise, a filter's start-up or a slipping encoder take a few postures beyond what the robot
 # reaches. No torque belongs to them. The nearest posture that closes stands in for theirs, so

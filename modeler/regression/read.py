@@ -81,7 +81,7 @@ def build_table(
 
 
 def read_whole_log(table: LogTable, spec: ModuleSpec) -> Log:
-    """Returns all rows of a log, with what only they can tell.
+    """Returns all rows of a log, with what only they can show.
 
     Raises:
         DataError: as `read_log`.
@@ -100,10 +100,10 @@ def build_log(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
     Args:
         table: its columns.
         spec: the robot's manifest.
-        measured: False of motion whose torques are not asked for: all are missing.
+        measured: False of motion whose torques are not requested: all are missing.
 
     Raises:
-        DataError: as `read_log` does, but for what only a whole log can tell.
+        DataError: as `read_log` does, but for what only a whole log can show.
     """
     time = _read_time(table)
     reading_notes = [*table.reading_notes, *table.notes, *_check_induced_voltage(table, spec)]
@@ -262,14 +262,14 @@ def _check_duties(table: LogTable, spec: ModuleSpec) -> list[str]:
 
 
 def _check_induced_voltage(table: LogTable, spec: ModuleSpec) -> list[str]:
-    """Returns what is told where a voltage model has no k_e."""
+    """Returns what is reported where a voltage model has no k_e."""
     joints = _find_duty_joints(table, spec)
     names = [joint.name for joint in joints if joint.drive and not joint.drive.k_e]
     what = f"joint{'s' * (len(names) > 1)} {', '.join(names)}"
     return (
         [
             f"{what}: without k_e in [drives], the back-EMF is part of the viscous friction "
-            "(from duties alone both cannot be told apart)"
+            "(from duties alone both cannot be distinguished)"
         ]
         if names
         else []
@@ -314,7 +314,7 @@ def _read_extra(
     table: LogTable, spec: ModuleSpec, reading_notes: list[str]
 ) -> dict[str, np.ndarray]:
     known = _collect_names(spec) | {"time", "segment"}
-    # A current beside a torque is a measurement of its own: temperature and gain effects want it.
+    # A current beside a torque is a measurement of its own: temperature and gain effects need it.
     known -= {f"current{joint.name}" for joint in spec.joints if f"tau{joint.name}" in table}
     others = [name for name in table.names if name not in known]
     text = [name for name in others if not table.is_numeric(name)]
@@ -334,7 +334,7 @@ def _interpolate_temperatures(
         if not name.startswith("temperature") or logged.all():
             continue
         if not logged.any() and not table.whole:
-            continue  # other rows may tell
+            continue  # other rows may show
         if not logged.any():
             raise DataError(
                 f"{table.path}: {table.format_name(name)} has no values; record it, or drop the "

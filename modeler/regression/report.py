@@ -372,7 +372,7 @@ class JointReport(ShortRepr):
 
 @dataclass(frozen=True)
 class DataReport(Result):
-    """All that is told of the data: logs, joints, noise, and every choice.
+    """All that is reported about the data: logs, joints, noise, and every choice.
 
     Attributes:
         processing: with every automatic choice filled in.
@@ -517,7 +517,7 @@ def count_rows(
         if (valid < full).any():
             cause = s.cause[rows]
             counts |= {name: (cause == k).sum(axis=0) for k, name in enumerate(CAUSES)}
-        counts["short"] = -full  # what no stretch is made of
+        counts["short"] = -full  # what no segment is made of
         sums |= {name: sums[name] + count for name, count in counts.items()}
     return Tally(sums, {"jitter": cuts.jitter, "gap": widths.max(initial=0.0)})
 

@@ -284,7 +284,7 @@ def build_chunk_rows(
 ) -> tuple[tuple[FilteredSegment, ...], LogFacts]:
     """Returns the rows of a chunk: repaired, split, filtered and differentiated as a whole log.
 
-    Its stretches have the rows that are its own and no others.
+    Its segments have the rows that are its own and no others.
 
     Raises:
         DataError: a value that cannot be.

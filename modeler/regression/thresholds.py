@@ -181,7 +181,7 @@ class Thresholds:
     max_plain_span: float = 30.0
     """rad; more are likely degrees."""
     header_rows: int = 1000
-    """That tell which columns a file has."""
+    """That show which columns a file has."""
     triangle_block_samples: int = 4096
     """Samples evaluated at a time for triangles."""
     repair_blocks: int = 5

@@ -123,7 +123,7 @@ def recognise_angle_terms(tree: ast.expr, rounded: dict[str, str]) -> ast.expr:
 
 
 def describe_rounded_angles(rounded: dict[str, str]) -> str:
-    """Returns what to tell of them."""
+    """Returns what to show of them."""
     return "rounded angles are exact here: " + ", ".join(f"{d} is {a}" for d, a in rounded.items())
 
 
@@ -436,14 +436,14 @@ def read_exact_angle(
 ) -> Expression:
     """Returns the angle with decimals that are multiples of pi put as exactly these.
 
-    `1.5707963267948966` becomes `pi/2`; so does `1.57`, which is told. Rounding of the sine and
+    `1.5707963267948966` becomes `pi/2`; so does `1.57`, which is reported. Rounding of the sine and
     cosine would otherwise hide relations between parameters. Symbols keep their values.
 
     Args:
         expression: of symbols and the variable.
         variable: of the joint, if it may stand there.
         place: of the expression.
-        rounded: grows by digits -> multiple, for what has to be told.
+        rounded: grows by digits -> multiple, for what has to be reported.
 
     Raises:
         RobotError: degrees.

@@ -664,7 +664,7 @@ def collect_shared_effects(robot: Robot, folder: str | Path) -> SharedEffects:
 
 
 def _build_law_key(effect: Effect) -> tuple[object, ...]:
-    """All that a joint could tell; where its shapes are tried first is no part of it."""
+    """All that a joint could show; where its shapes are tried first is no part of it."""
     form = effect.forms[0]
     return (
         effect.acts,

@@ -166,7 +166,7 @@ def read_relations(
         rows: of the table of joints and motors.
         symbols: values of the declared symbols.
         rounded: grows by the decimal angles that are taken for multiples of pi.
-        readings: grows by what is told of a cell that looks like a slip.
+        readings: grows by what is reported about a cell that looks like a slip.
 
     Raises:
         RobotError: unknown joints, a relation that is not linear, a circle, an actuated joint
@@ -552,7 +552,7 @@ def _compute_checked_inverse(
         raise place.make_error(
             f"{_format_ratios(ratios)}: singular, some motion of {join_names(joints)} turns no "
             "motor; "
-            "expected motors whose positions tell those of all joints; correct the coefficients"
+            "expected motors whose positions fix those of all joints; correct the coefficients"
         )
     largest = max(abs(c) for row in inverse for c in row)
     if largest > THRESHOLDS.max_joint_ratio:

@@ -102,7 +102,7 @@ def read_numbers(
 def read_parameters(
     place: TomlCell, known: Collection[str], expected: str
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Returns values of standard parameters, and how sure they are: `[parameters]`.
+    """Returns values of standard parameters, and their uncertainty: `[parameters]`.
 
     Args:
         place: the table.
@@ -114,7 +114,7 @@ def read_parameters(
         every body, over its scale.
 
     Raises:
-        RobotError: an unknown parameter, no number, or a doubt about a value that is not stated.
+        RobotError: an unknown parameter, no number, or a warning about a value that is not stated.
     """
     table = dict(place.read_table("[parameters] ZZ1 = 0.5"))
     inner = place.enter("uncertainty").with_value(table.pop("uncertainty", {}))
@@ -201,7 +201,7 @@ def read_drives(
         place: the table.
         moving: joints.
         gains: of `[drive_gains]`.
-        readings: grows by what is told of gains that no motor has.
+        readings: grows by what is reported about gains that no motor has.
 
     Returns:
         All gains, those given too, and the voltage models, by joint.

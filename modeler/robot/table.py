@@ -401,7 +401,7 @@ def build_joints(
     joints = []
     for row, place in rows:
         name, kind = row["j"], kinds[row["j"]]
-        # The place of the variable last: one in the wrong column is told there, not as missing.
+        # The place of the variable last: one in the wrong column is reported there, not as missing.
         order = sorted(GEOMETRY, key=lambda column: column == HOME.get(kind))
         cells = {c: _read_cell(row.get(c, 0), c, place, kinds, symbols, rounded) for c in order}
         joints.append(Joint(name, row["a"], _read_actuated(row, kind, place), kind, **cells))
@@ -417,7 +417,7 @@ def check_units(robot: Robot, values: Mapping[str, float], place: TomlCell) -> l
         place: of the table.
 
     Returns:
-        What to tell of the longest length if it is one in mm by its looks.
+        What to show of the longest length if it is one in mm by its looks.
 
     Raises:
         RobotError: names the cell.
@@ -442,7 +442,7 @@ def check_units(robot: Robot, values: Mapping[str, float], place: TomlCell) -> l
 def _read_row(
     number: int, cells: Any, columns: list[str], letters: Mapping[str, str], place: TomlCell
 ) -> Row:
-    # The name is told if it can be read: it is what the user looks for.
+    # The name is reported if it can be read: it is what the user looks for.
     named = isinstance(cells, list) and cells and columns[0] == "j"
     name = f" ({quote_value(cells[0])})" if named else ""
     here = place.enter(f"row {number}{name}", cells)

@@ -17,7 +17,7 @@ class Thresholds:
     """Largest ratio of the motion of a joint or motor to that of a joint that it follows; a larger
     coefficient is refused; no study."""
     max_name_length: int = 63
-    """Characters of a name that goes into C, which tells names apart by as many (C99, 5.2.4.1); no
+    """Characters of a name that goes into C, where as many are significant (C99, 5.2.4.1); no
     study."""
     max_right_angle_rounding: float = 1e-9
     """rad; an angle nearer to a multiple of pi/2 than this is that multiple; no study."""

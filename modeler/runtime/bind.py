@@ -65,7 +65,7 @@ class _ArrayLibrary:
         assert all(a.flags.c_contiguous and a.dtype == np.float64 for a in arrays)
         if not self._single:
             return list(arrays)
-        with np.errstate(over="ignore"):  # infinite in single precision: the results will tell
+        with np.errstate(over="ignore"):  # infinite in single precision: the results will show
             return [array.astype(np.float32) for array in arrays]
 
     def _prepare_output(self, out: np.ndarray) -> np.ndarray:
@@ -462,7 +462,7 @@ def _load_cached(environment: tuple[str, ...]) -> FusedLibrary:
 
 # The library of tiles, see csrc/modeler_tile.h, made callable; knows cffi.
 #
-# It is a library of its own, which is compiled when it is first asked for: small work does without.
+# It is a library of its own, which is compiled when it is first requested: small work does without.
 
 
 class TileLibrary(_ArrayLibrary):

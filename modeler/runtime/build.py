@@ -85,7 +85,7 @@ def read_exported_names(coff: bytes) -> list[str]:
         name = short.rstrip(b"\0").decode()
         if storage == _EXTERNAL and section > 0 and name.isidentifier():  # no `__real@...`
             names.append(name)
-        k += 1 + more  # what follows a symbol tells more of it
+        k += 1 + more  # what follows a symbol shows more of it
     return names
 
 

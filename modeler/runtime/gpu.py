@@ -1,7 +1,7 @@
 """The base regressor of a robot on a graphics processor, through CuPy; nothing else knows CuPy.
 
 CuPy is an optional part: `pip install "modeler-robotics[gpu]"`. The kernels are compiled for
-the processor at hand when they are first asked for.
+the processor at hand when they are first requested.
 """
 
 from collections.abc import Sequence

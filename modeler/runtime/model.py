@@ -32,7 +32,7 @@ _REFUSED = {
 
 
 class _FunctionTable(dict[str, FunctionSpec]):
-    """Functions of a module by name without the robot's; what is not there is told."""
+    """Functions of a module by name without the robot's; what is not there is reported."""
 
     def __init__(self, spec: ModuleSpec) -> None:
         start = f"{spec.prefix}_"

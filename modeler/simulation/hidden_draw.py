@@ -147,7 +147,7 @@ def _choose_kind_and_joint(
     if not places:
         needs = _WHY_NONE.get(kind.where, "a joint with a motor")
         raise RobotError(f"{where}: no place for it; expected {needs}")
-    # The first link of an arm hardly feels what is on it.
+    # The first link of an arm hardly depends on what is on it.
     inner = places[1:] if kind.where == "link" and len(places) > 1 else places
     drawn = str(rng.choice(inner))  # also where one is given: values do not depend on that
     if request.joint is not None and request.joint not in places:
@@ -203,7 +203,7 @@ def _build_site(
         joint_parameters.get("Fs", 0.0),
     )
     torque, speed, inertia = float(np.linalg.norm(parts)), scale.speed, scale.inertia
-    if kind.where == "pair":  # the next joint feels it too: what is large for the weaker one
+    if kind.where == "pair":  # it acts on the next joint too: what is large for the weaker one
         motors = [names.index(other.name) for other in robot.coordinates]
         after = scales[motors[motors.index(row) + 1]]
         torque, inertia = min(torque, after.torque), min(inertia, after.inertia)
@@ -213,7 +213,7 @@ def _build_site(
         )
         # What no motor commands is as fast as the loops make it.
         speed = joint_speed if kind.where == "passive" else speed
-    # Torque of a force of 1 N on the last body, per rms torque of the joint that feels it most.
+    # Torque of a force of 1 N on the last body, per rms torque of the joint on which it acts most.
     q, last = ca.SX.sym("q", len(limits)), robot.moving_joints[-1].name
     frame = compute_world_frames(robot, q)[last]
     point = frame.position + frame.rotation @ parameters.bodies[last].centre

@@ -41,7 +41,7 @@ class HiddenEffect:
     Attributes:
         effect: id.
         joint: name of the joint or link; None for an effect of the whole machine, and, where one
-            is asked for, for a joint that is drawn.
+            is requested, for a joint that is drawn.
         values: physical parameters by name, SI; those left out are drawn.
     """
 

@@ -185,7 +185,7 @@ class ControllerGains:
 
 @dataclass(frozen=True, eq=False)
 class ControllerState:
-    """What the controller remembers from one tick to the next; (joints,) each.
+    """What the controller keeps from one tick to the next; (joints,) each.
 
     Attributes:
         measured: encoder position at the last tick.
@@ -232,7 +232,7 @@ def update_controller(
     Args:
         gains: of the cascade.
         state: after the last tick.
-        inertia: (joints, joints) M that the motors feel at the measured position.
+        inertia: (joints, joints) M that acts on the motors at the measured position.
         measured: encoder position now.
         command: commanded q, qd, qdd now.
     """
@@ -468,7 +468,7 @@ def _run_closed_loop(
     random: np.ndarray,
     progress: Callable[[float], None] | None,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """All ticks: read the encoders, hold the torque asked for one tick ago, move on, control.
+    """All ticks: read the encoders, hold the torque requested one tick ago, move on, control.
 
     Args:
         task: machine and motion.
@@ -488,7 +488,7 @@ def _run_closed_loop(
     x = np.concatenate(
         [start, rest, compute_rest_states(plant.strain, start, task.states_along[0])]
     )
-    # The brakes open with the torque that carries the robot, as drives remember it.
+    # The brakes open with the torque that carries the robot, as drives store it.
     torque = plant.torque(x[:n], rest, rest, x[2 * n :]).full().ravel()
     torque = np.clip(torque, -gains.highest, gains.highest)
     state = ControllerState(

@@ -64,7 +64,7 @@ class Guard:
         )
         self._cookie_value = secrets.token_urlsafe(
             32
-        )  # value of the cookie; it tells nothing of the token
+        )  # value of the cookie; it shows nothing of the token
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """As a server calls it."""
@@ -148,7 +148,7 @@ def _read_cookies(headers: Headers, name: str) -> Iterable[str]:
 
 
 def _compare_secrets(one: str, other: str) -> bool:
-    """Compared in a time that tells nothing."""
+    """Compared in a time that shows nothing."""
     return secrets.compare_digest(one.encode(), other.encode())
 
 

@@ -45,7 +45,7 @@ async def draw_start(studio: Studio) -> None:
         "Compare a model with measurements, see where it fails, learn which physical effect is "
         "missing, add it, and watch the error fall."
     ).classes("studio-soft")
-    with ui.row().classes("studio-doors"):
+    with ui.row().classes("studio-choices"):
         _add_start_button(
             "Try the demo", "play_circle",
             "An arm with three joints, two measured runs, and an effect that its model lacks.",
@@ -64,9 +64,9 @@ async def draw_start(studio: Studio) -> None:
 
 
 def _add_start_button(title: str, icon: str, text: str, act: Callable[[], object]) -> None:
-    with ui.button(on_click=act).props("flat no-caps").classes("studio-door"), ui.column():
+    with ui.button(on_click=act).props("flat no-caps").classes("studio-choice"), ui.column():
         ui.icon(icon, size="2.5rem")
-        ui.label(title).classes("studio-door-title")
+        ui.label(title).classes("studio-choice-title")
         ui.label(text).classes("studio-soft")
 
 
@@ -109,10 +109,10 @@ JOBS = {
     "fit": ("Fit", fit_screen.draw),
     "fails": ("Where it fails", comparison_screens.draw_fails),
     "missing": ("What is missing", diagnosis_screens.draw_missing),
-    "fall": ("Watch it fall", diagnosis_screens.draw_history),
-    "days": ("Days and machines", comparison_screens.draw_days),
-    "motion": ("Next motion", motion_screen.draw),
-    "take": ("Take away", export_screen.draw),
+    "fall": ("Error history", diagnosis_screens.draw_history),
+    "days": ("Compare and drift", comparison_screens.draw_days),
+    "motion": ("Design experiment", motion_screen.draw),
+    "take": ("Export", export_screen.draw),
 }
 """The nine jobs, in the order in which they are done; Alt and the number goes there."""
 

@@ -51,7 +51,7 @@ async def draw_fails(studio: Studio) -> None:
         return
     roles = {role: name for role, name in _ROLES.items() if project.collect_words(role)}
     if not roles:
-        ui.label("No log has a training or held-out stretch: choose some first.")
+        ui.label("No log has a training or held-out segment: choose some first.")
         add_go_button(studio, "Data", "data")
         return
     state = studio.state.setdefault("fails", {})
@@ -139,7 +139,7 @@ class _FailureView:
                 where = await self.studio.ask_viewer("where_picture", self.model, self.logs)
                 heat = where.panels[0][0].series[0]
                 if np.isnan(heat.values).all():
-                    ui.label("These stretches have too few samples to tell what it follows.")
+                    ui.label("These segments have too few samples to show what it follows.")
                 else:
                     figures.draw_picture(where).on("plotly_click", self._select_cell)
                 self._select_strongest_channel(heat)
@@ -190,7 +190,7 @@ class _FailureView:
                     ui.label(sentence).classes("fails-sentence")
 
     async def _select_joint(self, joint: str, channel: str | None = None) -> None:
-        """Another joint, and perhaps another channel, is looked at."""
+        """Another joint, and possibly another channel, is looked at."""
         if joint not in self.verdict.joints:
             return
         self.state["joint"] = joint
@@ -297,7 +297,7 @@ _DAYS_TIME = "days"  # that pictures of several models share
 async def draw_days(studio: Studio) -> None:
     """Draws the screen of what changes from day to day and machine to machine."""
     draw_head(
-        "Days and machines",
+        "Compare and drift",
         "One model on two logs, two models on the same logs, and what changed from log to log.",
     )
     state = studio.state.setdefault("days", {"tab": "logs"})
@@ -479,13 +479,13 @@ async def _draw_drift(studio: Studio, state: dict[str, Any]) -> None:
         state["pattern"] = event.value.strip()
         renew()
 
-    ui.input("how paths end", value=state.get("pattern", ""), on_change=store_pattern,
+    ui.input("File name pattern", value=state.get("pattern", ""), on_change=store_pattern,
              placeholder="{machine}-{period}.csv").classes("w-80")  # fmt: skip
     ui.label(
         "Left out, the folder of a log is its machine and the file its period, in the order of "
         "their names."
     ).classes("studio-soft")
-    renew = add_run_button(studio, "Look for drift", build_task)
+    renew = add_run_button(studio, "Detect drift", build_task)
     steps = [step for step in project.steps if step.verb == "fleet"]
     if steps:
         _draw_fleet(studio, steps[-1])

@@ -1,4 +1,4 @@
-"""The screen "data": logs come in, are mapped, cut into stretches, looked at, and played."""
+"""The screen "data": logs come in, are mapped, cut into segments, looked at, and played."""
 
 import asyncio
 from dataclasses import replace
@@ -65,7 +65,7 @@ class DataScreen(ProjectLogs):
         with ui.row().classes("items-center w-full data-in"):
             label = "Drop logs here, several at once, or press +"
             add_drop_zone("logs", label, self._add_files, studio.show_error).classes("data-drop")
-            pick = ui.button("Choose where it lies", icon="folder_open").props("no-caps outline")
+            pick = ui.button("Browse (no copy)", icon="folder_open").props("no-caps outline")
             pick.on_click(lambda: choose_files(studio, LOG_ENDINGS, self._add_files))
         if not studio.project.logs:
             background_tasks.create(studio.ask_viewer("forget"), name="start the viewer")
@@ -75,7 +75,7 @@ class DataScreen(ProjectLogs):
             for log in studio.project.logs:
                 with ui.element("div").classes("data-log") as self._rows[log.file]:
                     ui.label(log.file)
-                    ui.label("is read").classes("studio-soft")
+                    ui.label("Loading").classes("studio-soft")
             with ui.row().classes("items-center gap-4"):
                 draw_legend()
                 ui.label(_FIRST).classes("studio-soft")
@@ -171,7 +171,7 @@ class DataScreen(ProjectLogs):
                 line.update_log(self.get_log(file), result.get("marks", ()))
                 ui.label(describe_roles(self.get_log(file)))
                 count = len(result.get("doubts", ()))
-                doubts = f"{count or 'no'} doubt{'s' * (count != 1)}" if result else ""
+                doubts = f"{count or 'no'} warning{'s' * (count != 1)}" if result else ""
                 ui.label(doubts).classes("studio-soft")
             off = ui.button(icon="close", on_click=lambda: self._remove_log(file))
             off.props("flat dense round").tooltip("takes it off the list; the file stays")
@@ -210,7 +210,7 @@ class DataScreen(ProjectLogs):
                 hub.running.cancel()
 
         while self.is_live and not studio.is_read_only:
-            if hub.running is not None:  # maybe what the screen before this one asked for
+            if hub.running is not None:  # maybe what the screen before this one requested
                 await asyncio.sleep(0.1)
                 continue
             every = (commands.inspect_log(studio.project, file) for file in self.logs)

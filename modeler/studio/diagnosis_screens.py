@@ -26,11 +26,11 @@ Found = Mapping[str, Any]
 """An effect, as the JSON of a diagnosis has it."""
 
 _STATUS: Mapping[str, tuple[Light, str]] = {
-    "fact": ("good", "fact: it is stated as missing"),
-    "named": ("good", "named: large enough and sure enough to go in"),
-    "perhaps": ("doubtful", "perhaps"),
+    "confirmed": ("good", "Confirmed"),
+    "likely": ("good", "Likely"),
+    "possible": ("doubtful", "Possible"),
 }
-_RANKS = ("fact", "named", "perhaps")
+_RANKS = ("confirmed", "likely", "possible")
 
 
 async def draw_missing(studio: Studio) -> None:
@@ -44,20 +44,20 @@ async def draw_missing(studio: Studio) -> None:
         return
     step = project.find_step_about("diagnose")
     elements.draw_stale_warnings(studio)
-    with elements.add_card("Look"):
-        elements.add_run_button(studio, "Look", lambda: commands.diagnose(studio.project))
+    with elements.add_card("Diagnose"):
+        elements.add_run_button(studio, "Diagnose", lambda: commands.diagnose(studio.project))
         _draw_bans(studio)
     if step is not None:
         if commands.diagnose(project) != step.task:
             elements.draw_warnings(
-                ["stretches or bans were changed since this was found; look again"]
+                ["segments or bans were changed since this was found; diagnose again"]
             )
         await _draw_diagnosis(studio, step)
     _draw_catalogue(studio)
 
 
 async def _draw_diagnosis(studio: Studio, step: Step) -> None:
-    """What was found, ranked, and what the data cannot tell."""
+    """What was found, ranked, and what the data cannot show."""
     result, project = studio.read_result(step), studio.project
     kind = "held-out error" if step.task.held else "cross-validated error"
     effect_keys = {(one["effect"], one["joint"]) for one in result["effects"]}
@@ -69,7 +69,7 @@ async def _draw_diagnosis(studio: Studio, step: Step) -> None:
         elements.draw_lines(result["sentences"] if not every else result["sentences"][:1])
         elements.draw_warnings(result["data"] if every else ())  # else the sentences say it
         if every:
-            elements.draw_folded("In the words of the command", result["sentences"])
+            elements.draw_folded("Command output", result["sentences"])
         else:
             _draw_remainder(result["joints"], kind)
     ranked = sorted(every, key=lambda one: _RANKS.index(one["status"]))
@@ -77,7 +77,7 @@ async def _draw_diagnosis(studio: Studio, step: Step) -> None:
         refines = (one["effect"], one["joint"]) not in effect_keys
         await _draw_card(studio, one, pictures, refines, kind, first=one is ranked[0])
     with elements.add_card("What else"):
-        if any(one["status"] != "perhaps" for one in every):
+        if any(one["status"] != "possible" for one in every):
             every_one = partial(commands.add, project, "auto", None)
             then = partial(_accept_step, studio)
             elements.add_run_button(studio, "Add all that is named", every_one, then, small=True)
@@ -89,7 +89,7 @@ async def _draw_diagnosis(studio: Studio, step: Step) -> None:
             for one in result["blind_spots"]
         ]
         elements.draw_folded(
-            "Rivals that explain less", rivals, "effect", "of the residual's variance"
+            "Alternatives that explain less", rivals, "effect", "of the residual's variance"
         )
         elements.draw_folded("What these logs cannot show", blind, "effect", "it is mistaken for")
         elements.add_page_button(studio, step)
@@ -131,8 +131,8 @@ async def _draw_card(
         elements.draw_warnings([one["objection"]] if one["objection"] else [])
         if one["ties"]:
             others = "; ".join(map(_describe_place, one["ties"]))
-            elements.draw_warnings([f"these data do not tell it from: {others}"])
-            elements.add_go_button(studio, "The motion that tells them apart", "motion")
+            elements.draw_warnings([f"these data do not distinguish it from: {others}"])
+            elements.add_go_button(studio, "The motion that distinguishes them", "motion")
         _draw_actions(studio, effect, joint)
         await _draw_preview(studio, effect, joint)
         names = [f"{kind}_{effect}_{joint or 'robot'}" for kind in ("evidence", "torque")]
@@ -140,7 +140,7 @@ async def _draw_card(
 
 
 def _draw_evidence(pictures: Sequence[Picture], unfolded: bool) -> None:
-    """Of the first effect at once, of others when they are asked for: closed they have no size."""
+    """Of the first effect at once, of others when they are requested: closed they have no size."""
     with ui.expansion("Evidence", value=unfolded).classes("w-full studio-folded") as folded:
         inside = ui.column().classes("w-full")
 
@@ -333,7 +333,7 @@ async def draw_history(studio: Studio) -> None:
     """Draws the screen of how the error fell, effect after effect."""
     project, path = studio.project, studio.project.collect_path()
     elements.draw_head(
-        "Watch it fall",
+        "Error history",
         "The error after every step. Press a bar, or a step, to go back to it: the robot file goes "
         "along, unless it was edited since.",
     )
@@ -341,13 +341,13 @@ async def draw_history(studio: Studio) -> None:
         elements.explain_missing_model(studio)
         return
     elements.draw_stale_warnings(studio)
-    with elements.add_card("The way of this model"):
+    with elements.add_card("History"):
         _draw_pictures(studio, path)
         for step in path:
             _draw_step(studio, step, "" if step is path[-1] else f"Undo to step {step.number}")
     aside = [step for step in project.steps if step.model_file and step not in path]
     if aside:
-        with elements.add_card("Set aside"):
+        with elements.add_card("Other branches"):
             for step in aside:
                 _draw_step(studio, step, f"Go to step {step.number}")
     logs = build_viewer_words(
@@ -396,7 +396,7 @@ def _draw_pictures(studio: Studio, path: Sequence[Step]) -> None:
         if picture.name == "waterfall":
             plot.on("plotly_click", lambda e: restore_bar(int(e.args["points"][0]["pointNumber"])))
     elements.draw_warnings(
-        f"{one['effect']} {one['joint'] or ''}: the error does not surely fall with it"
+        f"{one['effect']} {one['joint'] or ''}: the error does not fall significantly with it"
         for one in _read_waterfall(studio, path[-1])
         if not one["falls"]
     )

@@ -1,4 +1,4 @@
-"""What several screens are made of: command lines, buttons that run them, lights, doubts."""
+"""What several screens are made of: command lines, buttons that run them, lights, warnings."""
 
 import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -21,7 +21,7 @@ LIGHTS: tuple[Light, ...] = ("good", "doubtful", "bad")
 """The worse, the later."""
 
 _SHAPES: dict[Light, str] = {"good": "\u25cf", "doubtful": "\u25b2", "bad": "\u25a0"}
-"""A disc, a triangle, a square: told apart without colour."""
+"""A disc, a triangle, a square: distinguished without colour."""
 
 
 def draw_head(title: str, text: str = "") -> None:
@@ -67,7 +67,7 @@ def add_run_button(
     Args:
         studio: the window.
         title: of the button.
-        build_task: the command, asked for when it is shown and when it is run.
+        build_task: the command, requested when it is shown and when it is run.
         on_done: is called with the step when it is done; not if it failed.
         current: as of `Studio.run`.
         small: True for one among others.
@@ -125,7 +125,7 @@ _LEFT: Mapping[str, tuple[Light | None, str]] = {
     "noise": ("good", "what is left looks like noise"),
     "pattern": ("doubtful", "what is left has a pattern"),
     "other": ("doubtful", "what is left is no noise, and no pattern that was tried"),
-    "untold": (None, "too few samples tell what is left"),
+    "untold": (None, "too few samples show what is left"),
 }
 
 
@@ -154,7 +154,7 @@ def draw_stale_warnings(studio: Studio) -> None:
     changed = {
         "the robot was": studio.hub.read_step_robot(last) != studio.read_text(ROBOT),
         "the mapping of columns was": first.task.mapping != project.mapping,
-        "the training stretches were": last.task.logs != project.collect_parts("train"),
+        "the training segments were": last.task.logs != project.collect_parts("train"),
     }
     lines = [f"{what} changed since this model was fitted" for what, so in changed.items() if so]
     newer = [log.file for log in project.logs if studio.is_newer(log.file, last)]

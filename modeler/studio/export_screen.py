@@ -19,7 +19,7 @@ from modeler.studio.studio import Studio
 from modeler.studio.tasks import FIXED, LogPart, Step, Task, build_command_line
 
 _ABOUT = ("compare", "diagnose")
-"""Verbs that say something about a model, and are told again."""
+"""Verbs that say something about a model, and are reported again."""
 
 
 @dataclass(frozen=True)
@@ -186,7 +186,7 @@ def _format_code(recipe: Recipe, step: Step) -> Iterator[str]:
 _STATED = (
     "method", "derivatives", "cutoff", "parallel_cutoff", "low_speed", "essential_below"
 )  # fmt: skip
-"""What of a fit the robot is told, as its table [fit] would."""
+"""What of a fit the robot gets, as its table [fit] would."""
 
 
 def _format_settings(task: Task) -> str:
@@ -203,7 +203,7 @@ async def draw(studio: Studio) -> None:
     """Draws the screen of what can be taken away as files."""
     project = studio.project
     elements.draw_head(
-        "Take away", "Everything leaves as files; the script and the notebook do it all again."
+        "Export", "Everything leaves as files; the script and the notebook do it all again."
     )
     if not project.model_file:
         elements.explain_missing_model(studio)

@@ -118,7 +118,7 @@ def _compute_name_height(picture: Picture) -> int:
 
 
 def _divide_range(shares: Sequence[float], room: float, gap: float) -> list[tuple[float, float]]:
-    """Ends of so many stretches of 0 to 1, with gaps between."""
+    """Ends of so many segments of 0 to 1, with gaps between."""
     inner = max(0.3, 1.0 - (len(shares) - 1) * gap / room)
     between = (1.0 - inner) / max(1, len(shares) - 1)
     intervals, at = [], 0.0

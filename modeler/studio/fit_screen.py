@@ -1,4 +1,4 @@
-"""The screen "fit": values from the training stretches, and what they are worth, joint by joint."""
+"""The screen "fit": values from the training segments, and what they are worth, joint by joint."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
@@ -20,7 +20,7 @@ _LIGHT: Mapping[str | None, Light] = {"parameters": "good", "prediction": "doubt
 _STATE: Mapping[str, Light] = {"good": "good", "doubtful": "doubtful", "undetermined": "bad"}
 _BUILT: Mapping[bool | None, tuple[Light, str]] = {
     True: ("good", "yes: masses, inertias and friction of a possible machine give the same"),
-    False: ("doubtful", "no, see the doubts"),
+    False: ("doubtful", "no, see the warnings"),
     None: ("doubtful", "not asked: the logs are at fault first"),
 }
 _WIDTH = 160  # pixels of a drawn value
@@ -29,9 +29,9 @@ _WIDTH = 160  # pixels of a drawn value
 async def draw(studio: Studio) -> None:
     """Draws the screen of the fit."""
     project = studio.project
-    elements.draw_head("Fit", "Base parameters from the training stretches, each with its sigma.")
+    elements.draw_head("Fit", "Base parameters from the training segments, each with its sigma.")
     if not project.robot or not project.collect_words("train"):
-        ui.label("A fit needs a robot, and a stretch of a log that is marked for training.")
+        ui.label("A fit needs a robot, and a segment of a log that is marked for training.")
         where = "data" if project.robot else "robot"
         elements.add_go_button(studio, f"To the {where}", where)
         return
@@ -62,7 +62,7 @@ async def draw(studio: Studio) -> None:
     _draw_values(fit, studio.read_model(step))
     _draw_choices(fit)
     elements.add_page_button(studio, step)
-    elements.add_go_button(studio, "Look for what is missing", "missing")
+    elements.add_go_button(studio, "Diagnose", "missing")
 
 
 def find_lost_effects(studio: Studio, task: Task) -> Iterator[str]:
@@ -142,7 +142,7 @@ def _draw_stale(studio: Studio, step: Step) -> None:
 
 def _draw_verdict(fit: Mapping[str, Any]) -> None:
     """Lights of the whole and of every joint, with the reasons."""
-    with elements.add_card("What it is worth"):
+    with elements.add_card("Fit quality"):
         by_joint = {name: one for name, one in fit["joints"].items() if "state" in one}
         lights = {name: _STATE[one["state"]] for name, one in by_joint.items()}
         every = [_LIGHT.get(fit["valid_for"], "bad"), *lights.values()]
@@ -163,13 +163,11 @@ def _draw_verdict(fit: Mapping[str, Any]) -> None:
                     text = f"error {left}, residual {rms} {joint['unit']} rms"
                     ui.label(text).classes("studio-soft")
                     elements.draw_lines(joint_result["why"])
-        ui.label("Can such a machine be built?").classes("studio-part")
+        ui.label("Physical consistency").classes("studio-part")
         elements.draw_light(*_BUILT[fit.get("possible")])
         reasons = {reason for joint in by_joint.values() for reason in joint["why"]}
         elements.draw_warnings(line for line in fit["doubts"] if line not in reasons)
-        elements.draw_folded(
-            "What else is to be known", [*fit["sentences"], *fit.get("unseen", ())]
-        )
+        elements.draw_folded("Notes", [*fit["sentences"], *fit.get("unseen", ())])
 
 
 def _draw_values(fit: Mapping[str, Any], model: Mapping[str, Any]) -> None:
@@ -183,7 +181,7 @@ def _draw_values(fit: Mapping[str, Any], model: Mapping[str, Any]) -> None:
     with elements.add_card(f"{len(parameters)} values"):
         ui.label(
             "The whisker is one sigma to either side, among values of the same unit; a name that "
-            "is underlined tells what it is the sum of. Grey: the model does as well without."
+            "is underlined shows what it is the sum of. Grey: the model does as well without."
         ).classes("studio-soft")
         heads = ("parameter", "value", "sigma", "% sigma", "unit", "")
         rows = [_format_row(p, sums.get(p["name"], ""), tops[p["unit"]]) for p in parameters]
@@ -231,7 +229,7 @@ def _draw_choices(fit: Mapping[str, Any]) -> None:
                     f"{format_number(processing[name])} Hz",
                     "chosen from the logs"
                     if name in processing["chosen"]
-                    else "as it was asked for",
+                    else "as it was requested",
                 )
                 for title, name in cutoffs.items()
             ]

@@ -305,7 +305,7 @@ class LogView:
     # Pictures.
 
     async def _ask_viewer(self, question: str, *arguments: Any, kind: str = "") -> Any:
-        """What the viewer answers of this log; None where it has no answer, which is told."""
+        """What the viewer answers of this log; None where it has no answer, which is reported."""
         try:
             return await self.studio.ask_viewer(
                 question, self.project_logs.resolve_path(self.file), *arguments, kind=kind
@@ -407,7 +407,7 @@ class LogView:
     # The time.
 
     def _draw_controls(self) -> None:
-        """What is done with the cursor, with the stretch that is held, and with the whole log."""
+        """What is done with the cursor, with the segment that is held, and with the whole log."""
         with ui.row().classes("items-center gap-2"):
             play = ui.button(icon="play_arrow").props('dense round unelevated aria-label="play"')
             speed = ui.select(_SPEEDS, value=1.0).props('dense borderless aria-label="speed"')
@@ -437,7 +437,7 @@ class LogView:
         self._roles_label.text = timeline.describe_roles(self.log)
 
     def _hold_range(self, stretch: TimeRange | None) -> None:
-        """The stretch that was brushed; None: it was let go."""
+        """The segment that was brushed; None: it was let go."""
         self.brush = stretch
         for field, side in zip(self._ends, _get_ends(stretch) or (None, None), strict=True):
             field.set_value(side)
@@ -515,7 +515,7 @@ class LogView:
             await self._show_film()
         self._again()
 
-    # The doubts.
+    # The warnings.
 
     def get_marks(self) -> list[Mapping[str, Any]]:
         """Returns the warnings that have a place in time."""
@@ -539,7 +539,7 @@ class LogView:
             for line, line_marks in rows.items():
                 self._draw_warning(line, line_marks)
             if not rows:
-                text = "no doubts" if result else "It is looked at."
+                text = "no warnings" if result else "It is looked at."
                 ui.label(text).classes("studio-soft")
             heads = ("channel", "unit", "from", "to", "resolution", "missing")
             if result:
@@ -547,7 +547,7 @@ class LogView:
                 draw_folded("notes", result["notes"])
 
     def _draw_warning(self, line: str, marks: Sequence[Mapping[str, Any]]) -> None:
-        """A doubt, and what can be done where it has a place."""
+        """A warning, and what can be done where it has a place."""
         with ui.row().classes("items-center no-wrap gap-2 w-full"):
             with ui.element("div").classes("data-doubt"):
                 draw_warnings([line])
@@ -586,7 +586,7 @@ class LogView:
 
 @cache
 def _read_sentences() -> dict[str, str]:
-    """What the documentation says of a kind of doubt."""
+    """What the documentation says of a kind of warning."""
     return parse_toml(read_text(locate_resources("templates") / "studio" / "doubts.toml"))
 
 

@@ -1,4 +1,4 @@
-"""The screen "next motion": the one that tells most, or tells two effects apart."""
+"""The screen "next motion": the most informative one, or distinguishes two effects."""
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -34,7 +34,7 @@ _CHOSEN = "motion"
 async def draw(studio: Studio) -> None:
     """Draws the screen of the motion that the robot should do next."""
     draw_head(
-        "Next motion", "What the robot should do next, within its limits, so that a log tells most."
+        "Design experiment", "The motion within the robot's limits whose log identifies most."
     )
     project = studio.project
     if not project.robot:
@@ -43,7 +43,7 @@ async def draw(studio: Studio) -> None:
         return
     if project.model_file:
         draw_stale_warnings(studio)
-    with add_card("What it shall tell"):
+    with add_card("Objective"):
         _draw_request(studio)
     step = project.find_step_about("excite")
     if step is None:
@@ -67,7 +67,7 @@ def find_questions(result: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
             if len(pair) == 2 and pair[0] != pair[1] and frozenset(pair) not in known_pairs:
                 known_pairs.add(frozenset(pair))
                 one, other = (e.replace("_", " ").replace("@", " on joint ") for e in pair)
-                yield ",".join(pair), f"tell {one} from {other}"
+                yield ",".join(pair), f"distinguish {one} from {other}"
 
 
 def _draw_request(studio: Studio) -> None:
@@ -88,7 +88,7 @@ def _draw_request(studio: Studio) -> None:
         duration.classes("w-32")
     if len(options) == 1 and project.model_file:
         ui.label(
-            "Where a diagnosis cannot tell two effects apart, the motion that does is offered here."
+            "For two effects that a diagnosis cannot distinguish, the motion that does is offered."
         ).classes("studio-soft studio-small")
 
     def open_limits() -> None:
@@ -169,7 +169,7 @@ def _draw_result(studio: Studio, step: Step, result: Mapping[str, Any]) -> None:
 
 
 def _describe_separation(separation: Mapping[str, Any] | None) -> list[str]:
-    """How well two effects are told apart along the motion."""
+    """How well two effects are distinguished along the motion."""
     if not separation:
         return []
     (one, a), (other, b) = separation.items()

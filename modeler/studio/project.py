@@ -43,7 +43,7 @@ FOLDERS = ("robots", "logs", "models", "results", "motions", "pages", "taken")
 
 @dataclass(frozen=True)
 class ProjectLog:
-    """A log of the project, and what its stretches are for.
+    """A log of the project, and what its segments are for.
 
     Attributes:
         file: relative to the folder, or where it lies.

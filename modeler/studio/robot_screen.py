@@ -100,7 +100,7 @@ Taken = Callable[[str, tuple[str, ...]], Awaitable[None]]
 """Is called with the text of a robot file, and notes on how it was made."""
 
 _FILES = (".urdf", ".xml", ".mjcf", ".par", ".toml")
-_AS_HEADED = "as its headings say"
+_AS_HEADED = "Detect from headings"
 _EXAMPLE = "i\t\u03b1 [deg]\ta [mm]\td [mm]\t\u03b8\n1\t0\t0\t333\tq1\n2\t-90\t0\t0\tq2"
 
 
@@ -131,7 +131,7 @@ def _draw_paste(studio: Studio, before: str, on_taken: Taken) -> None:
     ).classes("studio-soft")
     with ui.row().classes("items-center"):
         whose = ui.select(
-            [_AS_HEADED, *CONVENTIONS], value=_AS_HEADED, label="whose table"
+            [_AS_HEADED, *CONVENTIONS], value=_AS_HEADED, label="DH convention"
         ).classes("w-48")
 
         async def take_table() -> None:
@@ -142,7 +142,7 @@ def _draw_paste(studio: Studio, before: str, on_taken: Taken) -> None:
                 if not table.has_headings and whose.value == _AS_HEADED:
                     raise ModelerError(
                         "the table has no headings, and books order their columns differently: "
-                        "choose whose table it is, or paste the headings too"
+                        "choose the DH convention, or paste the headings too"
                     )
                 text = (
                     insert_pasted_table(before, table)
@@ -165,7 +165,7 @@ def _draw_template(studio: Studio, on_taken: Taken) -> None:
         kind = ui.select(list(TEMPLATES), value=TEMPLATES[0], label="kind").classes("w-40")
         joints = ui.input("joints", value="RRR").classes("w-32")
         joints.props("hint='R turns, P slides'").bind_visibility_from(kind, "value", value="serial")
-        whose = ui.select(list(CONVENTIONS), value=CONVENTIONS[0], label="whose table")
+        whose = ui.select(list(CONVENTIONS), value=CONVENTIONS[0], label="DH convention")
         whose.classes("w-36").bind_visibility_from(kind, "value", value="serial")
 
     async def create_robot() -> None:
@@ -195,7 +195,7 @@ def _draw_file(studio: Studio, on_taken: Taken) -> None:
     )  # fmt: skip
     zone.props(remove="multiple").classes("w-full")
     ui.button(
-        "Choose where it lies", icon="folder_open",
+        "Browse (no copy)", icon="folder_open",
         on_click=lambda: choose_files(
             studio, _FILES, lambda files: background_tasks.create(open_file(files))
         ),
@@ -344,7 +344,7 @@ class _RobotEditor:
             self.editor.set_enabled(not self.studio.is_read_only)
 
     def _connect_edits(self, element: ui.element, **handlers: Any) -> None:
-        """Edits that a script tells; one that fails tells its line."""
+        """Edits from a script; one that fails reports its line."""
         for name, handler in handlers.items():
 
             async def apply_edit(event: Any, handler: Any = handler) -> None:
@@ -602,7 +602,7 @@ class _RobotEditor:
                 return
             ui.label(_describe_counts(facts))
             _draw_hint(
-                "Point at one, or go there by Tab: its links light up, and every term is told."
+                "Point at one, or go there by Tab: its links light up, and every term is reported."
             )
             ui.html(html, sanitize=False).classes("w-full")
 

@@ -38,8 +38,8 @@ class Hub:
         workspace: the folder.
         viewer: the process that holds logs and predictions.
         running: the command that runs; None: none.
-        last: words of the command that was asked for last, a step or not.
-        gives_way: whether it is cancelled as soon as another one is asked for.
+        last: words of the command that was requested last, a step or not.
+        gives_way: whether it is cancelled as soon as another one is requested.
         studios: of the windows, the first of which may change things.
         sheets: HTML of frames inside the page, by its digest.
         downloads: what may be taken away, by a key that nobody guesses, with its name.
@@ -237,7 +237,7 @@ class Studio:
     Attributes:
         hub: of the folder.
         screen: that is shown.
-        kept: what screens remember in this window, by their own names.
+        kept: what screens keep in this window, by their own names.
     """
 
     def __init__(self, hub: Hub, screen: str) -> None:

@@ -70,7 +70,7 @@ class TimeRange:
 
 @dataclass(frozen=True)
 class LogPart:
-    """A stretch of a log."""
+    """A segment of a log."""
 
     file: str
     stretch: TimeRange = TimeRange()

@@ -1,4 +1,4 @@
-"""What the stretches of a log are for, and the line on which they are drawn, brushed and played."""
+"""What the segments of a log are for, and the line on which they are drawn, brushed and played."""
 
 import dataclasses
 import math
@@ -21,7 +21,7 @@ ROLES: Mapping[str, str] = {"train": "training", "test": "held out", "out": "lef
 ALL = (TimeRange(),)
 """Of a log."""
 
-_DIGITS = 4  # of a second: what a stretch begins with
+_DIGITS = 4  # of a second: what a segment begins with
 
 
 def merge_ranges(parts: Iterable[TimeRange]) -> tuple[TimeRange, ...]:
@@ -121,7 +121,7 @@ def _describe_range(part: TimeRange) -> str:
 class Timeline(
     Element, component=locate_resources("templates") / "studio" / "parts" / "timeline.js"
 ):
-    """The time of a log: stretches by colour and pattern, marks, a brush, a cursor that plays.
+    """The time of a log: segments by colour and pattern, marks, a brush, a cursor that plays.
 
     Args:
         name: of its time, which pictures share.
@@ -152,14 +152,14 @@ class Timeline(
         marks: Sequence[Mapping[str, Any]] = (),
         brush: TimeRange | None = None,
     ) -> None:
-        """Updates the drawing of a log to what its stretches and marks are now."""
+        """Updates the drawing of a log to what its segments and marks are now."""
         self._props["spans"] = build_spans(log)
         self._props["marks"] = list(marks)
         self._props["brush"] = None if brush is None else [brush.start, brush.end]
         self.update()
 
     def connect_brush(self, on_brushed: Callable[[TimeRange | None], Any]) -> None:
-        """Calls back with the stretch that was drawn; None: it was let go."""
+        """Calls back with the segment that was drawn; None: it was let go."""
 
         def handle_brush(event: Any) -> None:
             ends = event.args
@@ -189,7 +189,7 @@ class Timeline(
 
 def draw_legend() -> None:
     """Draws the legend of the colours of a timeline."""
-    for role, name in {**ROLES, "sign": "a doubt: click it"}.items():
+    for role, name in {**ROLES, "sign": "a warning: click it"}.items():
         with ui.row().classes("items-center no-wrap gap-1"):
             ui.element("span").classes(f"timeline-swatch timeline-{role}")
             ui.label(name)

@@ -438,7 +438,7 @@ def verdict(model: str, logs: Sequence[str]) -> Verdict:
 
 
 def _classify_remainder(item: validation.JointComparison) -> str:
-    """What is left of a joint, which too few samples may not tell; a large error is no noise."""
+    """What is left of a joint, which too few samples may not show; a large error is no noise."""
     kind = validation.classify_residual(item)
     is_determined = kind != "other" or item.structure is not None or validation.is_too_large(item)
     return kind if is_determined else "untold"
@@ -590,7 +590,7 @@ def where_picture(model: str, logs: Sequence[str]) -> Picture:
     return Picture(
         "where", "Residual: which joint follows what",
         "Share of each joint's residual variance, in percent, that a curve over that channel "
-        "predicts on motion not used to draw it; empty: too few samples to tell. Coordinates move "
+        "predicts on motion not used to draw it; empty: too few samples to show. Coordinates move "
         "together: shares overlap. Choose a cell to look at it.",
         ((Panel("", "", "joint", (heat,)),),), 110 + 34 * len(joints),
     )  # fmt: skip

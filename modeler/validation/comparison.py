@@ -42,7 +42,7 @@ _LEFT = (0, 4)  # columns of text
 METHODS = {
     "laps": "what returns in the other laps of the same log",
     "logs": "what returns in the other logs of the same motion",
-    "smooth": "what smooth functions of the motion predict on stretches held out (no motion was "
+    "smooth": "what smooth functions of the motion predict on segments held out (no motion was "
     "made twice)",
 }
 """How the repeatable part of a residual was found."""
@@ -115,7 +115,7 @@ class Region(ShortRepr):
 
 @dataclass(frozen=True)
 class WorstWindow:
-    """The stretch of one log with the largest summed squared residual."""
+    """The segment of one log with the largest summed squared residual."""
 
     log: str
     segment: int
@@ -291,9 +291,9 @@ class JointComparison(ShortRepr):
     largest: Moment
     regions: tuple[Region, ...]
     worst: WorstWindow
-    structure: residual_structure.ResidualStructure | None  # None: too few samples to tell
+    structure: residual_structure.ResidualStructure | None  # None: too few samples to show
     spectrum: spectra.ResidualSpectrum | None  # None: no segment long enough
-    shares: residual_structure.VarianceShares | None  # None: too few samples to tell
+    shares: residual_structure.VarianceShares | None  # None: too few samples to show
     scale: Scale | None  # None: too few samples, or a constant
     orders: spectra.OrderSpectrum | None  # None: too few samples, or the joint rests
     predicted_sigma: float | None  # rms standard deviation of the prediction; None: not known
@@ -478,7 +478,7 @@ def compare_long_logs(
         model: fitted.
         sources: of the logs.
         compiled: its robot.
-        progress: is told the share of the rows that are done.
+        progress: receives the share of the rows that are done.
         rows: of a chunk, at least.
 
     Raises:

@@ -103,7 +103,7 @@ class QuantityValues(ShortRepr):
     Attributes:
         at: (p,) in days or periods since the first of the fleet.
         periods: (p,) their names.
-        values: (p,) NaN where a log does not tell it.
+        values: (p,) NaN where a log does not determine it.
         sigmas: (p,) scatter from one period to the next included.
     """
 
@@ -119,7 +119,7 @@ class QuantityHistory(ShortRepr):
 
     Attributes:
         quantity: what.
-        level: median over machines and periods; NaN if no log tells it.
+        level: median over machines and periods; NaN if no log determines it.
         factor: by which it scatters from one period to the next more than its rows say; 1: no more.
         smallest_detectable: the smallest detectable change over all periods; None with one period.
         machines: its values by machine.
@@ -143,9 +143,9 @@ class Fleet(Result):
         unit: of times: "days" or "periods".
         machines: names and their periods, in order.
         findings: the surest first.
-        histories: all that was looked at, and a load if one could be told.
+        histories: all that was looked at, and a load if one could be identified.
         false_alarm: chance that a fleet in which nothing drifts has any finding, at most.
-        unidentified: common parameters that the logs cannot tell.
+        unidentified: common parameters that the logs cannot identify.
         skipped_logs: logs that were not used, and why.
         doubts: what is wrong with the measurements.
         notes: what a reader must know.
@@ -294,9 +294,9 @@ def format_headline(fleet: Fleet) -> tuple[str, str]:
     if fleet.skipped_logs:
         less = f"; {len(fleet.skipped_logs)} log{'s' * (len(fleet.skipped_logs) > 1)} left out"
     if not fleet.findings:
-        return "nothing", f"drifts beyond doubt on {machines} in {fleet.logs} logs{less}"
+        return "nothing", f"drifts significantly on {machines} in {fleet.logs} logs{less}"
     hit = len({one.machine for one in fleet.findings})
-    return f"{hit} of {machines}", f"drift or are apart from the others, beyond doubt{less}"
+    return f"{hit} of {machines}", f"drift or differ from the others significantly{less}"
 
 
 def format_fleet(fleet: Fleet) -> list[str]:
@@ -306,7 +306,7 @@ def format_fleet(fleet: Fleet) -> list[str]:
     lines += [f"  {describe_finding(one, fleet.unit)}" for one in fleet.findings]
     lines += ["", *align_columns(build_table_rows(fleet), (0, 1)), ""]
     lines.append(
-        "told: the smallest straight drift over all periods that would be a finding; chance of any "
+        "detectable: the smallest straight drift over all periods that is a finding; chance of any "
         f"finding where nothing drifts: {format_percent(fleet.false_alarm)}"
     )
     lines += fleet.notes
@@ -317,7 +317,7 @@ def format_fleet(fleet: Fleet) -> list[str]:
         )
     lines += format_skipped(fleet)
     if fleet.unidentified:
-        lines.append(f"not told by any log, taken as 0: {', '.join(fleet.unidentified)}")
+        lines.append(f"not identifiable from any log, taken as 0: {', '.join(fleet.unidentified)}")
     return lines
 
 
@@ -327,7 +327,7 @@ def format_skipped(fleet: Fleet) -> list[str]:
     return [f"left out: {text}" for text in texts]
 
 
-HEAD = "joint, effect, parameter, level, unit, scatter, told"
+HEAD = "joint, effect, parameter, level, unit, scatter, detectable"
 """Of the table of what was looked at."""
 
 
@@ -527,15 +527,15 @@ def _collect_notes(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[str
         )
     if len(machines) < FLEET_THRESHOLDS.min_machines:
         notes.append(
-            f"{len(machines)} machine{'s' * (len(machines) > 1)}: an odd one among fewer than "
-            f"{FLEET_THRESHOLDS.min_machines} is not told"
+            f"{len(machines)} machine{'s' * (len(machines) > 1)}: an outlier among fewer than "
+            f"{FLEET_THRESHOLDS.min_machines} is not reported"
         )
     known = np.isfinite(tests.values).any(axis=0)
     blind = [
         q.parameter for q, is_known in zip(tests.quantities, known, strict=True) if not is_known
     ]
     if blind:
-        notes.append(f"{', '.join(blind)}: no log tells it from the other parameters")
+        notes.append(f"{', '.join(blind)}: no log distinguishes it from the other parameters")
     return notes
 
 
@@ -559,15 +559,15 @@ def describe_undetectable_drifts(tests: QuantityTests, logs: Sequence[LogSummary
                 hidden.append(f"{quantity.parameter} ({worse})")
         if hidden:
             sentences.append(
-                f"machine {name}: its logs tell {', '.join(hidden)} far worse than those of the "
-                "others do (times their sigma): a drift that would be found there may hide here; "
+                f"machine {name}: its logs determine {', '.join(hidden)} far worse than the "
+                "others do (times their sigma): a drift found there may be missed here; "
                 "record a motion like theirs"
             )
     return sentences
 
 
 def _compute_usual_sigma(tests: QuantityTests, m: int, i: int) -> float:
-    """Usual sigma of one log; infinite if none tells it, NaN of gains that a load stands for."""
+    """Usual sigma of one log; infinite if none shows it, NaN of gains that a load stands for."""
     log_indices = tests.find_logs(m, i)
     if log_indices.size:
         return float(np.median(tests.sigmas[log_indices, i]))
@@ -584,7 +584,7 @@ def describe_unknown_scatter(tests: QuantityTests, logs: int) -> list[str]:
         return []
     return [
         f"{logs} logs: too few to know how values scatter from one period to the next; a drift "
-        "must be large to be told, and that nothing drifts says little; record more periods"
+        "must be large to be detected, and that nothing drifts says little; record more periods"
     ]
 
 

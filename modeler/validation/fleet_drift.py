@@ -359,7 +359,7 @@ class QuantityTests:
         quantities: (d,) what.
         machine: (k,) index of the machine of each log.
         at: (k,) when.
-        values: (k, d) of gains in %; NaN where a log does not tell it.
+        values: (k, d) of gains in %; NaN where a log does not determine it.
         sigmas: (k, d) by the rows of each log.
         scatters: (d,) from period to period.
         drifts: (machine, quantity) of those that drift, and how.
@@ -385,7 +385,7 @@ class QuantityTests:
         return int(self.machine.max()) + 1
 
     def can_report(self, m: int, i: int) -> bool:
-        """Tells whether a quantity counts: no load in a machine that gains describe better."""
+        """Returns whether a quantity counts: no load in a machine that gains describe better."""
         loaded = self.loaded_machines
         return loaded is None or self.quantities[i].effect != LOAD or m in loaded
 

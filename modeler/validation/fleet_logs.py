@@ -254,7 +254,7 @@ class LogJob:
         path: the file.
         span: seconds of it that count; None: all.
         processing: None: chosen from this log.
-        mapping: which columns of the logs are ours.
+        mapping: which column of the logs is which quantity.
     """
 
     log_name: LogName
@@ -324,7 +324,7 @@ def summarise_log(
     """Summarises a log that was read.
 
     Raises:
-        ModelerError: it has no usable rows, or contradicts the robot beyond doubt.
+        ModelerError: it has no usable rows, or significantly contradicts the robot.
     """
     observation = observe(model, [log], processing)
     dead = find_disconnected_joints(observation)
@@ -392,7 +392,7 @@ def separate_foreign_logs(
 
     A log with positions and torques of more joints than the robot has is left out where more than
     half of all logs have other joints than it; where no such half is, or it has them too, it is
-    told.
+    reported.
     """
     kinds = Counter(each.extra_joints for each in used)
     usable, left, places_by_joints = [], [], dict[tuple[str, ...], list[str]]()
@@ -531,12 +531,12 @@ def _build_load_columns(spec: ModuleSpec) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class LogFit:
-    """What a log deviates by; d unknowns, of which those that it cannot tell are NaN.
+    """What a log deviates by; d unknowns, of which those that it cannot identify are NaN.
 
     Attributes:
         values: (d,) friction and offset in SI units, then gains as a share (0.05: 5 % more torque)
             or the load, mass in kg first.
-        sigmas: (d,) their standard deviations, with what the residuals remember.
+        sigmas: (d,) their standard deviations, with what the residuals are autocorrelated.
         misfit: sum over the joints of ||r_j||^2 / sigma_j^2, sigma of the log's own fit, and over
             the unknowns of what each takes off it by chance.
     """
@@ -552,9 +552,10 @@ class FleetFit:
 
     Attributes:
         theta: (c,) common parameters; 0 where a base parameter may drift.
-        unidentified: names of common parameters that the logs cannot tell; 0.
+        unidentified: names of common parameters that the logs cannot identify; 0.
         logs: with friction, offset and gains.
-        load_fits: with friction, offset and a load in place of gains; empty if none can be told.
+        load_fits: with friction, offset and a load in place of gains; empty if none can be
+            identified.
     """
 
     theta: np.ndarray
@@ -567,7 +568,7 @@ def fit_fleet(layout: FleetLayout, summaries: Sequence[LogSummary]) -> FleetFit:
     """Fits all logs together.
 
     Raises:
-        DataError: the logs tell no common parameter, or nothing that may drift.
+        DataError: the logs identify no common parameter, or nothing that may drift.
     """
     if not layout.drifting:
         raise DataError(
@@ -663,7 +664,7 @@ def _fit_log(each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blo
 def _solve_log(
     each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blocks
 ) -> tuple[list[int], np.ndarray, np.ndarray, np.ndarray]:
-    """Columns that can be told, their values, a root of (Z^T Z)^-1, and (n,) ||r_j||."""
+    """Columns that can be identified, their values, a root of (Z^T Z)^-1, and (n,) ||r_j||."""
     pairs = [
         (R[:, :-1], R[:, -1], block) for R, block in zip(each.data.triangles, blocks, strict=True)
     ]

@@ -214,7 +214,7 @@ def _add_creep(C: np.ndarray, qd: np.ndarray) -> np.ndarray:
 # error of its torque is integrated twice.
 
 
-_GROWN = np.log(10.0)  # an error that becomes tenfold in the run is told
+_GROWN = np.log(10.0)  # an error that becomes tenfold in the run is reported
 _FADED = np.log(2.0)  # and one that becomes half
 
 

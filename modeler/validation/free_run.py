@@ -40,8 +40,8 @@ def simulate_controlled_run(
     The controller of a log is not known; it is estimated as for `didim`, see `direct_model`.
 
     Returns:
-        What became of it, and a doubt, "" without one. None: no commands were logged and none is
-        asked for, or none that was tried holds the robot.
+        What became of it, and a warning, "" without one. None: no commands were logged and none is
+        requested, or none that was tried holds the robot.
 
     Raises:
         DataError: gains are given, and no commands were logged or the robot is lost.

@@ -36,8 +36,8 @@ class JointModelComparison(ShortRepr):
         errors: (m,) ||measured - predicted|| / ||measured||.
         rms: (m,) of the residual, N m or N.
         best: index of the model that is significantly better than every other; None: nobody is.
-        chance: two-sided, that the best and its nearest rival are equally good; 1 where nothing
-            can be told.
+        chance: two-sided, that the best and the next best alternative are equally good; 1 where
+            nothing can be reported.
     """
 
     joint: JointInfo

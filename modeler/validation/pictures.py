@@ -46,7 +46,7 @@ from modeler.validation.residual_structure import (
 )
 from modeler.validation.thresholds import THRESHOLDS
 
-# Rows that do not count, and gaps between rows, as shaded stretches of time.
+# Rows that do not count, and gaps between rows, as shaded segments of time.
 
 
 GAP = "no rows"
@@ -65,7 +65,7 @@ _WHY = WHY | {
     GAP: "a gap in the log, with the start-up of the filter on either side",
     OTHER: "left out of this comparison",
 }
-_CLOSE = 1.0 / 1500.0  # of the axis: stretches that no screen shows apart are drawn as one
+_CLOSE = 1.0 / 1500.0  # of the axis: segments that no screen shows apart are drawn as one
 
 
 def find_masked_spans(
@@ -463,7 +463,7 @@ def _build_order_panel(item: JointComparison) -> Panel:
 # All joints at once: how large the errors are, where, and what they follow.
 
 
-_READABLE = 8.0  # percent: a shorter stretch of a bar has no room for its number
+_READABLE = 8.0  # percent: a shorter segment of a bar has no room for its number
 
 
 def draw_overview_picture(comparison: Comparison) -> Picture:
@@ -495,7 +495,7 @@ def _write_overview_caption(comparison: Comparison) -> str:
     how = "; ".join(METHODS[name] for name in METHODS if name in methods)
     return (
         "Relative error: unexplained share of each joint's own torque or force. Variance: of it, "
-        "and of what is left alone; without that panel, too few samples tell. "
+        "and of what is left alone; without that panel, too few samples show. "
         + (f"Repeatable is {how}; noise is the rest. " if how else "")
         + "Where: in which velocity region the squared residual sits, and in brackets the share of "
         "the samples there; fast is beyond 40 %, around zero within 5 % of the joint's own top "
@@ -553,7 +553,7 @@ def _build_heatmap(
     columns: tuple[str, ...],
     shares: Callable[[ResidualStructure], list[float]],
 ) -> Heat:
-    """Shares of each joint's residual; nothing where too few samples tell."""
+    """Shares of each joint's residual; nothing where too few samples show."""
     joints = comparison.joints
     values = np.array(
         [

@@ -112,7 +112,7 @@ def compute_unit_errors(prediction: Prediction, rows: np.ndarray | None = None) 
     )
 
 
-# How sure a predicted torque is, as far as the parameters of the model are.
+# Uncertainty of a predicted torque, as far as the parameters of the model are.
 
 
 def propagate_covariance(columns: np.ndarray, covariance: np.ndarray) -> np.ndarray:

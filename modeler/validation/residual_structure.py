@@ -476,8 +476,8 @@ class VarianceShares:
 
     explained: float
     systematic: float  # repeatable, and not in the model
-    floor: float  # noise, as far as these logs can tell
-    method: Method  # how the last two were told apart
+    floor: float  # noise, as far as these logs can show
+    method: Method  # how the last two were distinguished
     sigma: float | None  # standard error of both; None by the method "smooth"
 
     @property

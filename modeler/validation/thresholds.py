@@ -56,7 +56,7 @@ class Thresholds:
     max_numerical_error: float = 0.01
     """Share of the range: a larger numerical error is reported."""
     max_p_value: float = 0.0027
-    """Chance that equally good models are told apart on one joint: three standard deviations."""
+    """Chance that equally good models are distinguished on one joint: three standard deviations."""
     max_blocks: int = 24
     """Blocks of time: residuals are uncorrelated between them."""
     min_block_seconds: float = 1.0

@@ -291,7 +291,7 @@ def _is_autocorrelated(item: JointComparison) -> bool:
 
 def _describe_no_pattern(item: JointComparison) -> str:
     if item.structure is None:
-        return f"too few samples ({item.samples}) to tell whether the residual has structure"
+        return f"too few samples ({item.samples}) to show whether the residual has structure"
     if _is_autocorrelated(item) and item.spectrum is not None:
         return (
             f"no function of its own motion or of time explains it, yet it is not noise: it stays "

@@ -77,7 +77,7 @@ def _describe_model(comparison: validation.ModelComparison, k: int) -> str:
     )
     won = comparison.find_best_joints(k)
     best = f"joint {', '.join(won)}" if won else "no joint"
-    return f"error {errors}; best beyond doubt on {best}"
+    return f"error {errors}; significantly best on {best}"
 
 
 def _build_model_sections(comparison: validation.ModelComparison) -> list[page.Section]:
@@ -117,14 +117,14 @@ def _tabulate_errors(comparison: validation.ModelComparison) -> page.PageTable:
         for item in comparison.joints
     ]
     return page.PageTable(
-        ["joint", *comparison.names, "best beyond doubt", "chance"],
+        ["joint", *comparison.names, "significantly best", "chance"],
         rows,
         "Relative error: norm of measured minus predicted torque (force) over the norm of what was "
         "measured, each joint by itself, on the rows that count for every model. Chance: that the "
-        "best and its nearest rival are equally good, from the spread of the difference between "
-        "blocks of time; beyond doubt is less than "
-        f"{format_percent(validation.THRESHOLDS.max_p_value)}, shared among the rivals.",
-        dict.fromkeys(comparison.names, "bar") | {"best beyond doubt": "text"},
+        "best and the next best are equally good, from the spread of the difference between "
+        "blocks of time; significant is less than "
+        f"{format_percent(validation.THRESHOLDS.max_p_value)}, shared among the alternatives.",
+        dict.fromkeys(comparison.names, "bar") | {"significantly best": "text"},
     )
 
 
@@ -346,7 +346,7 @@ def _summarise_model_comparison(comparison: validation.ModelComparison) -> str:
 
 
 def _collect_model_comparison_tables(comparison: validation.ModelComparison) -> Tables:
-    head = ["joint", *comparison.names, "best beyond doubt", "chance"]
+    head = ["joint", *comparison.names, "significantly best", "chance"]
     rows = [
         (
             item.joint.name,

@@ -68,7 +68,7 @@ def _collect_facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
         first = diagnosis.effects[0]
         facts.append(
             (
-                "What the data do not tell apart",
+                "What the data do not distinguish",
                 format_equivalents(first) or _describe_runner_up(diagnosis),
             )
         )
@@ -79,14 +79,14 @@ def _collect_facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     ]
     facts.append(("What is still systematic", ", ".join(left) or "nothing worth a word"))
     if diagnosis.data:
-        facts.append(("Doubts about the logs", "; ".join(diagnosis.data)))
+        facts.append(("Warnings about the logs", "; ".join(diagnosis.data)))
     held = ", ".join(diagnosis.held_out) or "none: errors are cross-validated within the logs"
     facts.append(("Held-out motion", held))
     return facts
 
 
 def _describe_runner_up(diagnosis: Diagnosis) -> str:
-    """Of the same joint: an effect on another one is no rival."""
+    """Of the same joint: an effect on another one is no alternative."""
     first = diagnosis.effects[0]
     rivals = [gain_of for gain_of in diagnosis.rivals if gain_of[1] == first.joint]
     if not rivals:
@@ -130,7 +130,7 @@ def _build_sections(diagnosis: Diagnosis) -> list[page.Section]:
     blind = [(f"{what}:", why) for what, why in describe_undetectable(diagnosis)]
     nothing = page.Paragraph("Nothing of the catalogue.")
     sections.append(
-        page.Section("What these logs cannot show", [page.Items(blind) if blind else nothing])
+        page.Section("What these logs cannot tell", [page.Items(blind) if blind else nothing])
     )
     return sections
 
@@ -223,7 +223,7 @@ def _tabulate_findings(diagnosis: Diagnosis) -> list[page.Block]:
 
 _ERRORS = (
     "The largest error first. Errors are those of the joint that is named, in parts of its own rms "
-    "torque or force; of an effect that several joints feel, of all of them, each in units of what "
+    "torque or force; of an effect on several joints, of all of them, each in units of what "
     "is left of it, so that N m and N are never added. Before and after: without the effect and "
     "with it, all others that were named before it in the model. Gain: share of the residual's "
     "variance that is gone."
@@ -266,7 +266,7 @@ def _tabulate_joints(diagnosis: Diagnosis) -> page.PageTable:
         rows,
         "Errors of each joint in parts of its own rms torque or force. Shares of its variance with "
         "the effects in. Systematic is what smooth functions "
-        "of the motion predict, what returns in the next lap, what lasts, and outbursts.",
+        "of the motion predict, what returns in the next lap, what lasts, and bursts.",
     )
 
 
@@ -274,20 +274,20 @@ def _tabulate_joints(diagnosis: Diagnosis) -> page.PageTable:
 
 
 def _collect_diagnosis_tables(diagnosis: Diagnosis) -> Tables:
-    blind = "what these logs cannot show", "effect, why"
+    blind = "what these logs cannot tell", "effect, why"
     return {
         "effects": lambda: _tabulate_effects(diagnosis),
         "joints": lambda: _build_joint_table(diagnosis),
         "rivals": lambda: Table.build(
-            "rivals of the first effect", "effect, joint, gain", diagnosis.rivals
+            "alternatives of the first effect", "effect, joint, gain", diagnosis.rivals
         ),
-        "blind spots": lambda: Table.build(*blind, describe_undetectable(diagnosis)),
+        "undetectable effects": lambda: Table.build(*blind, describe_undetectable(diagnosis)),
     }
 
 
 def _tabulate_effects(diagnosis: Diagnosis) -> Table:
     rows = [
-        _build_effect_row(f, "missing" if f.status == "fact" else f.status)
+        _build_effect_row(f, "missing" if f.status == "confirmed" else f.status)
         for f in diagnosis.effects
     ]
     rows += [_build_effect_row(f, "refines the model") for f in diagnosis.refinements]

@@ -267,7 +267,7 @@ def find_inliers(left: np.ndarray, block: np.ndarray) -> np.ndarray:
     return np.asarray(~wild)
 
 
-# An effect on the joint that shows it: what was left without it, with it, and to any rival.
+# An effect on the joint that shows it: what was left without it, with it, and to any alternative.
 
 
 @dataclass(frozen=True, eq=False)

@@ -303,8 +303,8 @@ def tabulate_alternatives(step: diagnosis.SearchStep) -> PageTable:
         ("Why not another effect", "explains"),
         [(name, PageCell(format_percent(gain), gain)) for name, gain in gains],
         "Share of the error variance of its own joints that each effect explains within these "
-        "logs, cross-validated. Only effects on the same joint are rivals; one on another joint is "
-        "perhaps the next to be found.",
+        "logs, cross-validated. Only effects on one joint are alternatives; one on another is "
+        "possibly the next to be found.",
         {"explains": "bar"},
     )
 
@@ -435,7 +435,7 @@ def _write_torque_caption(item: Evidence, what: str, window: tuple[float, float]
     )
 
 
-# Pictures of what is no column: knocks of play around the moments they follow, a push in time.
+# Pictures of what is no column: impacts of play around the moments they follow, a push in time.
 
 
 def draw_play_picture(state: diagnosis.State, j: int) -> Picture:
@@ -460,10 +460,10 @@ def draw_play_picture(state: diagnosis.State, j: int) -> Picture:
     return Picture(
         f"evidence_backlash_{joint.name}",
         f"Play in the gear: joint {joint.name}",
-        "The teeth knock when the load pushes them to the other side. "
+        "The teeth hit when the load pushes them to the other side. "
         f"{ROWS.description.capitalize()}: rows; {MEANS.description}: means of bins with 95 % "
         "intervals; "
-        "shaded: where the knocks are looked for. Friction and springs do not know these moments.",
+        "shaded: where the impacts are looked for. Friction and springs do not know these moments.",
         ((panel,),),
         380,
     )

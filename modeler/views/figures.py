@@ -73,7 +73,7 @@ def draw_parameters(fit: FitResult) -> "Drawing":
     bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
     label = "sigma [% of the value], at most 100 drawn"
     panel = Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label, (bars,))
-    title = f"{fit.robot}: how sure the parameters are"
+    title = f"{fit.robot}: uncertainty of the parameters"
     return draw_picture(Picture("parameters", title, "", ((panel,),), 380))
 
 

@@ -256,7 +256,7 @@ PRESENTATIONS = {
 }
 
 
-# The page of a fit: values with sigma, what each is the sum of, condition, doubts.
+# The page of a fit: values with sigma, what each is the sum of, condition, warnings.
 
 
 def build_fit_page(
@@ -292,7 +292,7 @@ def _collect_facts(fit: FitResult) -> list[tuple[str, str]]:
     aside = [p.name for p in fit.parameters if p.sigma is None]
     facts = [
         (
-            "How sure?",
+            "Uncertainty",
             f"{len(sure)} of {len(fit.parameters)} parameters within 10 % (one sigma); "
             f"{sum(p.essential for p in fit.parameters)} are essential",
         ),
@@ -331,11 +331,11 @@ def _build_sections(model: IdentifiedModel) -> list[page.Section]:
         table = page.PageTable(
             ("parameter", "and", "correlation"),
             [(a, b, f"{value:+.3f}") for a, b, value in pairs],
-            "The torques of these logs tell the sum (-1) or the difference (+1) of such a pair "
+            "The torques of these logs fix the sum (-1) or the difference (+1) of such a pair "
             "better than either; more exciting motion parts them.",
             {"and": "text"},
         )
-        sections.append(page.Section("What the data hardly tell apart", [table]))
+        sections.append(page.Section("What the data hardly distinguish", [table]))
     return sections
 
 
@@ -345,7 +345,7 @@ def _build_verdict_blocks(fit: FitResult) -> list[page.Verdict | page.Items]:
         kind, tag = ("noise", "valid") if fit.verdict.usable else ("pattern", "not valid")
         lines = [page.JudgedLine(kind, tag, "This fit", fit.verdict.line)]
         lines += [
-            page.JudgedLine("other", "doubt", f"Doubt {k}", text)
+            page.JudgedLine("other", "doubt", f"Warning {k}", text)
             for k, text in enumerate(fit.verdict.doubts, start=1)
         ]
         blocks.append(page.Verdict(lines))

@@ -76,7 +76,7 @@ def _build_section_id(k: int) -> str:
 
 def _build_verdict(fleet: Fleet) -> page.Verdict | page.Paragraph:
     if not fleet.findings:
-        return page.Paragraph("No machine drifts and none is apart from the others, beyond doubt.")
+        return page.Paragraph("No machine drifts and none differs from the others significantly.")
     lines = []
     for k, one in enumerate(fleet.findings):
         joint = "" if one.quantity.joint is None else f"joint {one.quantity.joint}, "
@@ -189,7 +189,7 @@ def _tabulate_followed(fleet: Fleet) -> page.PageTable:
         head,
         rows,
         "Level: median of all machines and periods. Scatter: by which values change from one "
-        "period to the next more than the noise of their logs explains. Told: the smallest "
+        "period to the next more than the noise of their logs explains. Detectable: the smallest "
         "straight drift over all periods that would be a finding.",
         dict.fromkeys(("effect", "parameter", "unit"), "text"),
     )

@@ -192,7 +192,7 @@ def _summarise_inspection(inspection: LogInspection) -> str:
     ]
     lines += [f"note: {note}" for note in inspection.notes]
     return "\n".join(
-        [*lines, *([f"doubt: {doubt}" for doubt in inspection.warnings] or ["no doubts"])]
+        [*lines, *([f"warning: {doubt}" for doubt in inspection.warnings] or ["no warnings"])]
     )
 
 

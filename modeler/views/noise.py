@@ -132,8 +132,8 @@ def _write_caption(bands: Bands, of: str, fitted: bool) -> str:
         )
     if bands.trembling:
         text += (
-            " Here it was lowered further: behind wider filters the model's torque trembles "
-            f"{bands.trembling:.2g} times as much as the measured one."
+            " Here it was lowered further: behind wider filters the model's torque has "
+            f"{bands.trembling:.2g} times the high-frequency content of the measured one."
         )
     return text
 

@@ -1,6 +1,6 @@
 """How results show themselves: summaries, tables, figures; what a notebook displays.
 
-One room for all: a result knows what it found, these files know how to say it. They are loaded
+One package for all: a result knows what it found, these files know how to say it. They are loaded
 when a result is first shown.
 """
 

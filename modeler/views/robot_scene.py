@@ -532,6 +532,6 @@ def _fit_plane_normal(points: np.ndarray, axes: np.ndarray, size: float) -> np.n
 
 
 def _compute_spread(flat: np.ndarray, size: float) -> float:
-    """How well points are told apart on the paper: mean distance, near pairs count most."""
+    """How well points are distinguished on the paper: mean distance, near pairs count most."""
     away = np.linalg.norm(flat[:, None] - flat[None], axis=2)[np.triu_indices(len(flat), 1)]
     return float(np.mean(np.minimum(away / size, 0.15))) if away.size else 0.0

@@ -62,7 +62,7 @@ def test_every_way_to_fit_is_that_of_the_command(tmp_path, chain, logs, options:
 def test_a_look_at_a_log(folder: Path, chain, logs) -> None:
     seen = api.inspect_log(logs[0])
     assert {"q1", "q2", "tau1", "tau2"} <= set(seen.table().column("channel"))
-    assert "no doubts" in seen.summary() and len(repr(seen)) < 200
+    assert "no warnings" in seen.summary() and len(repr(seen)) < 200
     assert seen.plot()._repr_png_().startswith(b"\x89PNG")
     assert api.write_report(seen, folder / "log.html").exists()
     piece = api.inspect_log(f"{logs[0]}@1:3", api.compile_model(chain[1]))

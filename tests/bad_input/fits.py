@@ -42,5 +42,5 @@ def unusable_or_true(result: Result) -> None:
     raw = _written(result)
     doubts = raw.get("doubts", [])
     assert off < 0.2 or raw.get("usable") is False or doubts, (
-        f"{worst} = {found[worst]:.4g} for {TRUE[worst]:g} without a doubt"
+        f"{worst} = {found[worst]:.4g} for {TRUE[worst]:g} without a warning"
     )

@@ -91,7 +91,7 @@ CLOCK = [
     signal("a quarter of a second", "ends", rows(np.s_[:100]), "usable|sample|row|essential",
            alone=True),
     signal("20 Hz of 200", "ends", rows(np.s_[::10]), "Hz"),
-    signal("segments that tell two runs apart", "works", put(segment=np.arange(SAMPLES) // HALF)),
+    signal("segments that distinguish two runs", "works", put(segment=np.arange(SAMPLES) // HALF)),
 ]  # fmt: skip
 
 POSITION = [

@@ -9,7 +9,7 @@ from typing import Literal
 from tests.bad_input.workdir import Workdir
 
 Outcome = Literal["refused", "told", "works", "ends"]
-"""refused: status 1 or 2 and one clear line; told: done, and the doubt is named; works: as if
+"""refused: status 1 or 2 and one clear line; reported: done, and the warning is named; works: as if
 nothing were odd; ends: refused or works, where only a size decides which."""
 
 Make = Callable[[Workdir], object]

@@ -1,4 +1,4 @@
-"""What any experiment could tell at most: a rank that knows nothing of the grouping."""
+"""What any experiment could show at most: a rank that knows nothing of the grouping."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from modeler.derivation.numeric_rank import draw_random_states, evaluate_regress
 
 
 def seen(model) -> int:
-    """Rank of the torques at random states, structural zeros told by size."""
+    """Rank of the torques at random states, structural zeros recognised by size."""
     states = draw_random_states(model, 80, np.random.default_rng(11))
     W = evaluate_regressor(model, states).reshape(-1, len(model.columns))
     W = W[:, np.linalg.norm(W, axis=0) > 1e-12 * np.linalg.norm(W)]

@@ -44,7 +44,7 @@ class Chromium:
 
     Attributes:
         page: of Playwright.
-        requests: addresses that were asked for, the file itself included.
+        requests: addresses that were requested, the file itself included.
         complaints: errors and warnings of the console, uncaught exceptions, refused loads.
     """
 

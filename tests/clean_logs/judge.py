@@ -25,7 +25,7 @@ FAULTS = (
     r"computed from|planned or",
 )  # fmt: skip
 HARMLESS = re.compile(
-    r"^(?:channel|parameter|Not detectable)\b|no doubts|doubtful$|where the sign of the speed|"
+    r"^(?:channel|parameter|Not detectable)\b|no warnings|doubtful$|where the sign of the speed|"
     r"--keep-damaged uses"
 )
 """Headings, what could not be seen, what an option would do."""

@@ -38,7 +38,7 @@ def test_no_line_is_wrong(seed, tmp_path):
 @pytest.mark.parametrize(
     "line",
     [
-        "log: doubt: a.parquet: q4: stays at an end of its range: the position is clipped",
+        "log: warning: a.parquet: q4: stays at an end of its range: the position is clipped",
         "fit: joint 1 rings at 100 Hz, look at the controller's gains",
         "compare: Joint 3: measured is 0.88 times predicted; the prediction is off by a factor",
         "log: q1  -  -1.2  1.3  6.28e-07  -",

@@ -69,7 +69,7 @@ def test_what_the_system_refuses_of_a_path_is_one_line(capsys) -> None:
 
 @pytest.mark.rotating("long tests of cli")
 def test_interrupted(tmp_path: Path) -> None:
-    """In the midst of the work, which `--verbose` tells."""
+    """In the midst of the work, which `--verbose` shows."""
     words = ("-v", "simulate", "panda", "--duration", "600", "--out", str(tmp_path / "x.parquet"))
     running = subprocess.Popen(
         [sys.executable, "-m", "modeler", *words], stderr=subprocess.PIPE, text=True,

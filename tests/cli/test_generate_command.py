@@ -34,7 +34,7 @@ def changed(model, **more):
 
 
 def test_the_robot_after_its_model_leaves_no_fitted_files(place, capsys, tmp_path):
-    """But an example that somebody edited, which is told."""
+    """But an example that somebody edited, which is reported."""
     answer(capsys, "generate", place, "--out", tmp_path)
     (tmp_path / "programs" / "example_computed_torque.c").write_text("mine")
     status, _, err = run(capsys, "generate", "two-link", "--out", tmp_path)
@@ -119,7 +119,7 @@ def test_the_header_says_what_the_values_are_of(fitted, delay, words):
     assert f"The torques of the logs stood {words} the motion that they belong to" in text
     assert "Without the load that some logs carried: M2_load 1.5 kg." in text
     table = emitted.files["two_link_fitted.c"]
-    assert "0.0, /* TWO_LINK_BETA_MY1 [kg m], set aside: the logs do not tell it */" in table
+    assert "0.0, /* TWO_LINK_BETA_MY1 [kg m], set aside: the logs do not identify it */" in table
 
 
 def test_drive_gains_of_the_robot_file_go_along(fitted):

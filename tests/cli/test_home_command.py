@@ -1,4 +1,4 @@
-"""`modeler home`: modes are told, drawn and written; commands say what they found."""
+"""`modeler home`: modes are reported, drawn and written; commands say what they found."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""`modeler fit` of logs that are read in chunks: same numbers, told in lines and JSON."""
+"""`modeler fit` of logs that are read in chunks: same numbers, reported in lines and JSON."""
 
 import dataclasses
 import json
@@ -204,7 +204,7 @@ def test_a_long_log_is_looked_at_in_blocks(place, chunked, tmp_path, monkeypatch
     whole, _ = told_of(words, tmp_path / "whole", capsys)
     assert found["clock"]["gaps"] == 2 and found["clock"]["at"] == whole["clock"]["at"] == 5.115
     del found["notes"], whole["notes"]
-    del found["marks"], whole["marks"]  # of long logs only what their first look tells has a place
+    del found["marks"], whole["marks"]  # of long logs only what their first look shows has a place
     assert all(any(c[what] for c in whole["channels"]) for what in ("limits", "missing"))
     noises = [one.pop("bands")["noise"] for one in (found, whole)]
     for some, every in zip(*noises, strict=True):  # of the windows
@@ -270,7 +270,7 @@ def test_a_log_of_any_length_is_diagnosed_by_stretches_of_it(
     monkeypatch.setattr("modeler.regression.read.MOST_WHOLE", 5000)
     monkeypatch.setattr(regression, "SPREAD", 5000)
     few, out = told_of(words, tmp_path / "few", capsys)
-    assert "9000 rows; 4096 of them are looked at, in 8 stretches of 2.56 s" in out
+    assert "9000 rows; 4096 of them are looked at, in 8 segments of 2.56 s" in out
     assert few["verdict"] == every["verdict"] == "nothing significant"
     assert few["joints"]["1"]["error_before"] == pytest.approx(
         every["joints"]["1"]["error_before"], rel=0.2

@@ -1,4 +1,4 @@
-"""`--quiet`, `--verbose`, `--progress lines`: what is told beside the results, which stay."""
+"""`--quiet`, `--verbose`, `--progress lines`: what is reported beside the results, which stay."""
 
 import json
 import os
@@ -54,7 +54,7 @@ def test_verbose_shows_warnings_of_libraries_and_quiet_does_not(monkeypatch, rec
 
 @pytest.mark.parametrize("words", ["-q {}", "{} --quiet"])
 def test_quiet_leaves_results_and_errors(capsys, tmp_path: Path, words: str) -> None:
-    """A note is told, unless quiet; an error always."""
+    """A note is reported, unless quiet; an error always."""
     robot = read_robot("two-link").text + '\n[fit]\nmethod = "robust"\n'
     (tmp_path / "arm.toml").write_text(robot)
     (tmp_path / "a.csv").write_text("no log\n")
@@ -125,7 +125,7 @@ def lines_of(err: str) -> list[tuple[str, str]]:
 
 
 def test_shares_and_titles_in_order(capsys, monkeypatch) -> None:
-    with apply_verbosity(Verbosity.NORMAL), show_progress("not asked for") as tell:
+    with apply_verbosity(Verbosity.NORMAL), show_progress("not requested") as tell:
         tell(0.5)
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(console, "THRESHOLDS", Thresholds(progress_interval=0.0))
@@ -152,7 +152,7 @@ def test_a_thousand_shares_in_a_moment_are_few_lines(capsys) -> None:
 
 @pytest.mark.parametrize("words", ["--progress lines", "-q --progress=lines"])
 def test_a_command_tells_its_steps_and_the_same_result(capsys, tmp_path: Path, words: str) -> None:
-    """Quiet or not: it is asked for. An error stays the last line."""
+    """Quiet or not: it is requested. An error stays the last line."""
     command = ["simulate", "two-link", "--duration", "1", "--json", "-", *words.split(), "--out"]
     status, out, err = run(capsys, *command, tmp_path / "a.csv")
     assert status == 0 and json.loads(out)["robot"] == "two-link"

@@ -150,7 +150,7 @@ def test_parameters_that_a_fit_set_aside_are_not_told(capsys, tmp_path, wrist):
     fit = dataclasses.replace(model.fit, parameters=tuple(parameters), covariance=covariance)
     save_model(tmp_path / "m.json", dataclasses.replace(model, fit=fit))
     out = answer(capsys, "physical", tmp_path / "m.json", "--known", listed(truth, EIGHT))
-    assert "not told: bt3 needs PG4, and the fit set MX2 aside" in out
+    assert "not determined: bt3 needs PG4, and the fit set MX2 aside" in out
 
 
 def test_sets_of_a_robot(capsys, tmp_path):

@@ -1,4 +1,4 @@
-"""Three rules of MISRA C:2012 that emitted and runtime C keeps, told from the syntax tree.
+"""Three rules of MISRA C:2012 that emitted and runtime C keeps, checked on the syntax tree.
 
 13.4: the value of an assignment is not used. 14.4: what controls an if or a loop is a comparison or
 a logical operation. 15.6: the body of an if or a loop stands in braces.

@@ -72,4 +72,4 @@ def test_a_reader_of_the_standard_finds_names_units_and_limits(tmp_path, capfd) 
     broken = emitted.files["emps.a2l"].replace("VALUE 0x0 ", "VALUE ")
     (tmp_path / "broken.a2l").write_text(broken)
     pya2l.import_a2l(str(tmp_path / "broken.a2l"), in_memory=True).close()
-    assert "[error]" in "".join(capfd.readouterr())  # it does tell
+    assert "[error]" in "".join(capfd.readouterr())  # it does show

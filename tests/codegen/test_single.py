@@ -73,7 +73,7 @@ def test_a_module_compiles_without_a_warning_and_checks_itself(name, cc, tmp_pat
     ],
 )  # fmt: skip
 def test_it_computes_what_double_precision_computes(name, bound, samples):
-    """To `bound` of what is added up; of loops as well as the posture tells, near home."""
+    """To `bound` of what is added up; of loops as well as the posture shows, near home."""
     one, two = single(name), plain(name)
     spec = two.spec
     q, qd, qdd = states(len(spec.joints), samples)

@@ -201,7 +201,7 @@ def test_one_joint_alone_is_named() -> None:
 
 
 def test_a_burst_is_no_proof() -> None:
-    """One second of 30 makes most of the difference: bad luck, perhaps, but no better model."""
+    """One second of 30 makes most of the difference: bad luck, possibly, but no better model."""
     one = model(7, 1.0)
     predicted = one.predicted.copy()
     predicted[500:600] += 6.0

@@ -151,7 +151,7 @@ def test_the_full_rate_is_that_of_the_rows(machine: Machine) -> None:
         e = (p.measured - p.predicted)[rows, joint]
         there = np.interp(p.time[rows], p.full.time, np.nan_to_num(p.full.filtered[:, joint]))
         close = np.abs(there - e) < 1e-6 * np.abs(e).max()
-        assert close.mean() > 0.9  # rows at the edge of a masked stretch may differ
+        assert close.mean() > 0.9  # rows at the edge of a masked segment may differ
 
 
 def test_an_automatic_cutoff_suits_the_slowest_log(machine: Machine) -> None:

@@ -145,7 +145,7 @@ def test_long_logs_are_looked_at_sparsely_and_alike() -> None:
     ("defect", "noise", "rows", "words"),
     [
         (lambda q, qd, qdd, tau, t: np.full(t.size, -0.7), NOISE, 6000, "off by -0.7"),
-        (None, NOISE, 150, "too few samples (150) to tell"),
+        (None, NOISE, 150, "too few samples (150) to show"),
         (None, 0.0, 6000, "agree to rounding"),
     ],
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""What `compiled.gpu` wants of CuPy, on the CPU: arrays of numpy, kernels compiled as C++."""
+"""What `compiled.gpu` needs of CuPy, on the CPU: arrays of numpy, kernels compiled as C++."""
 
 import ctypes
 import subprocess

@@ -1,4 +1,4 @@
-"""The compiled model at its door: shapes, memory, threads."""
+"""The compiled model at its interface: shapes, memory, threads."""
 
 import re
 from concurrent.futures import ThreadPoolExecutor

@@ -1,4 +1,4 @@
-"""macOS and Windows from here: what their compilers are told, and where their files go.
+"""macOS and Windows from here: which options their compilers get, and where their files go.
 
 Nothing here ran on either. The compilers are scripts that take and refuse what those take and
 refuse, and pass it on to gcc; what is written for Windows is written by clang, which can.
@@ -37,7 +37,7 @@ def program(name: str, folder: Path, **known: object) -> str:
 
 @pytest.fixture
 def cl(tmp_path, monkeypatch):
-    """A cl that knows these values of /fp, as CC; what it is told stands in a file."""
+    """A cl that knows these values of /fp, as CC; its options stand in a file."""
     compiler("gcc"), compiler("clang")
     folder = tmp_path / "Visual Studio"
     folder.mkdir()

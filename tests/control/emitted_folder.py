@@ -47,7 +47,7 @@ class Folder:
                 K[i, places[term.parameter]] = term.value
         self.beta = K @ np.array(list(self.chi.values()))
         self.oracle, self.path, self.single = Oracle(self.robot, self.chi), folder, single
-        for base in bare.base:  # no motion tells a constant weight from an offset
+        for base in bare.base:  # no motion distinguishes a constant weight from an offset
             offsets = [t for t in base.terms if t.parameter.startswith("Off")]
             weights = [t for t in base.terms if t not in offsets]
             if base.column_of.startswith("Off"):

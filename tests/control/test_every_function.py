@@ -139,7 +139,7 @@ def expected(o: Oracle, folder: Folder, s: State) -> dict[str, tuple]:
 
 
 def named(folder: Folder) -> dict[str, str]:
-    """{end of the function's name: row or link} that was asked for besides the tool."""
+    """{end of the function's name: row or link} that was requested besides the tool."""
     ends = [role[len("pose_") :] for role in folder.roles if role.startswith("pose_")]
     names = [*folder.robot.frames, *(joint.name for joint in folder.robot.joints)]
     found = {re.sub(r"\W", "_", name).lower(): name for name in reversed(names)}

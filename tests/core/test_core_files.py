@@ -139,7 +139,7 @@ def test_a_write_protected_file_stays_and_what_fails_midway_leaves_the_old_file(
 ) -> None:
     path = tmp_path / "file.json"
     path.write_text("old")
-    with monkeypatch.context() as patch:  # as the system tells it: to an administrator, nothing is
+    with monkeypatch.context() as patch:  # as the system shows it: to an administrator, nothing is
         patch.setattr(os, "access", lambda *_: False)
         refused_by_both(path, r"file\.json: cannot be written")
 

@@ -81,7 +81,7 @@ class Machine:
         Args:
             program: command; it answers a line of numbers by a line of numbers.
             line: (sample, encoder positions, true speeds, torques held since the last) -> what it
-                is told.
+                is reported.
             push: s -> torques from outside, (joints,).
         """
         n, ticks = self.joints, self.reference.time.size

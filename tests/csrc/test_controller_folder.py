@@ -158,7 +158,7 @@ def test_the_version_of_modeler_is_in_no_signature(monkeypatch):
     [("demo-arm", "double"), pytest.param("five-bar", "single", marks=pytest.mark.rotating)],
 )
 def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
-    """And a number that is wrong in the twelfth digit (of floats: the fifth) is told."""
+    """And a number that is wrong in the twelfth digit (of floats: the fifth) is reported."""
     module = emitted(name, precision=precision, vectors=True)
     built(module, tmp_path, "all", "batch")
     lines = (tmp_path / "vectors.csv").read_text().splitlines()
@@ -237,7 +237,7 @@ def test_the_stack_of_a_call_is_a_bound_of_what_it_uses(tmp_path):
 
 
 def test_the_stack_of_a_function_in_several_versions_is_that_of_the_largest(tmp_path):
-    """As gcc states it of each; functions that call none of ours are told that and no more."""
+    """As gcc states it of each; functions that call none of ours are reported as such."""
     module, rows = emitted("two-link", BOTH), costs("two-link", BOTH)
     write_emitted(module, tmp_path)
     sources = [n for n in module.spec.controller_sources if re.match(r"two_link.*\.c", n)]

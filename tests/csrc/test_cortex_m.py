@@ -1,4 +1,4 @@
-"""On microcontrollers: what the code weighs, what it wants, and what it computes there."""
+"""On microcontrollers: what the code weighs, what it needs, and what it computes there."""
 
 import dataclasses
 import re

@@ -169,7 +169,7 @@ def draw_learning(time: np.ndarray, off: np.ndarray, error: np.ndarray) -> None:
 
 @pytest.mark.rotating("long tests of csrc")
 def test_the_adaptive_example_learns_the_parameters(tmp_path, capsys, regenerate):
-    """From nothing: beta's error, weighed by what the motion tells, falls; so does tracking's.
+    """From nothing: beta's error, weighed by what the motion determines, falls; so does tracking's.
 
     Measured: 29 % after 1 s, 2 % after 6 s.
     """

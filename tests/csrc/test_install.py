@@ -64,7 +64,7 @@ def files(prefix: Path) -> set[str]:
 
 
 def configure(place: Path, prefix: object, wanted: str, *more: str, fails: bool = False) -> str:
-    """What CMake says of a project that wants the package."""
+    """What CMake says of a project that needs the package."""
     (place / "CMakeLists.txt").write_text(CONSUMER.format(wanted=wanted))
     shutil.rmtree(place / "build", ignore_errors=True)
     words = ["cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={prefix}", *more]

@@ -67,7 +67,7 @@ def same_ways(emitted: EmittedModule, other: EmittedModule) -> bool:
 
 
 def equivalent(emitted: EmittedModule, mutant: Mutant, name: str) -> bool:
-    """Whether no number that a user sees can tell the mutant."""
+    """Whether no number that a user sees can reveal the mutant."""
     other = changed(emitted, mutant)
     return same_results(emitted, other, name) and same_ways(emitted, other)
 

@@ -154,7 +154,7 @@ def test_what_a_motion_cannot_show_is_a_blind_spot(arm: Path, run: Run, tmp_path
     status, out, _ = run("diagnose", arm / "m.json", log, "--json", tmp_path / "d.json")
     assert status == 0
     assert "data: joint 1 never moves: nothing can be said of its effects; move it" in out
-    assert "data: joint 2 moves at one speed only (1 rad/s): friction laws cannot be told" in out
+    assert "data: joint 2 moves at one speed only (1 rad/s): friction laws cannot be" in out
     assert "any effect of joint 1" in out.splitlines()[-2]  # the last names the next command
     content: dict[str, Any] = json.loads((tmp_path / "d.json").read_text())
     blind = {(spot["effect"], spot["joint"]) for spot in content["blind_spots"]}
@@ -166,7 +166,7 @@ def test_what_a_motion_cannot_show_is_a_blind_spot(arm: Path, run: Run, tmp_path
 
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_slow_motion_only(arm: Path, run: Run, tmp_path: Path) -> None:
-    """Joints 2 and 3 feel gravity and friction, next to no inertia."""
+    """Joints 2 and 3 carry gravity and friction, next to no inertia."""
     q = np.column_stack([sweep(0.05, 0.5, 40.0), sweep(0.055, 0.5, 40.0), sweep(0.061, 0.5, 40.0)])
     status, out, _ = run("diagnose", arm / "m.json", planned(arm, q, tmp_path / "slow.parquet"))
     assert status == 0

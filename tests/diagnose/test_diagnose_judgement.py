@@ -117,7 +117,7 @@ def test_a_push_is_no_fact_while_something_acts_all_the_time(
     event = finding(effect, None, is_event=effect == "external_force")
     first = _add_event_caveat(event, joints)  # type: ignore[arg-type]
     assert decide_verdict((first,), joints, None) == said  # type: ignore[arg-type]
-    assert first.status == ("fact" if said == "missing" else "named")
+    assert first.status == ("confirmed" if said == "missing" else "likely")
 
 
 LED = CrossCheck("up to 9 Hz", ("stribeck", "2"), False, 0.3, 0.4)
@@ -150,7 +150,7 @@ def test_one_rule_says_in_words_why_an_effect_is_perhaps_and_no_more(
     said = explain_weak_evidence(candidate(name), (0.2 if after < 0.2 else 0.9, after), **others)  # type: ignore[arg-type]
     assert why in said and bool(said) is bool(why)
     first = finding(name, "2", doubt=said)
-    assert first.status == ("perhaps" if why else "fact")
+    assert first.status == ("possible" if why else "confirmed")
     assert decide_verdict((first,), joint_left(0.1), None) == (  # type: ignore[arg-type]
         "closest description" if why else "missing"
     )

@@ -1,4 +1,4 @@
-"""A torque behind a low-pass filter is told as that, and never as friction."""
+"""A torque behind a low-pass filter is reported as that, and never as friction."""
 
 import math
 
@@ -44,10 +44,10 @@ DELAY2 = changed(late, 1, 0.02)
 
 
 def stated_friction(found: Diagnosis) -> list[str]:
-    """Ids of friction that is more than perhaps missing."""
+    """Ids of friction that is more than possibly missing."""
     friction = {e.id for e in found.search.catalogue if e.family == "friction"}
     every = (*found.effects, *found.refinements)
-    return [f.effect for f in every if f.effect in friction and f.status != "perhaps"]
+    return [f.effect for f in every if f.effect in friction and f.status != "possible"]
 
 
 @pytest.mark.rotating("long tests of diagnose")
@@ -59,7 +59,7 @@ def test_a_filtered_torque_is_named_with_its_time(
 ) -> None:
     found = case.found(torque)
     first = found.effects[0]
-    assert (first.effect, first.joint, first.status) == ("torque_lag", joint, "fact")
+    assert (first.effect, first.joint, first.status) == ("torque_lag", joint, "confirmed")
     assert first.parameters["tau"] == pytest.approx(tau, rel=0.1)
     assert first.parameters[f"lag{joint or ''}"] == pytest.approx(1.0, abs=0.1)
     assert first.error_after < 0.3 * first.error_before
@@ -70,23 +70,23 @@ def test_a_filtered_torque_is_named_with_its_time(
 def test_without_held_out_logs_too_and_ruled_out_it_is_no_friction(case: Case) -> None:
     model, train, _ = case.hidden(LAG2)
     found = diagnose(model, case.compiled, [train])
-    assert (found.effects[0].effect, found.effects[0].status) == ("torque_lag", "fact")
+    assert (found.effects[0].effect, found.effects[0].status) == ("torque_lag", "confirmed")
     assert not stated_friction(found)
     found = case.found(LAG2, ("torque_lag",))
-    assert all(f.status != "fact" for f in found.effects), found.sentences
+    assert all(f.status != "confirmed" for f in found.effects), found.sentences
 
 
 @pytest.mark.rotating("long tests of diagnose")
 def test_a_pure_delay_is_no_filter(case: Case) -> None:
     found = case.found(DELAY2)
-    assert all(f.status != "fact" for f in found.effects)
+    assert all(f.status != "confirmed" for f in found.effects)
     assert not stated_friction(found)
     assert "a pure delay of 2" in found.sentences[0] and "describes it better" in found.sentences[0]
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_what_is_a_delay_or_a_filter_takes_no_place(case: Case) -> None:
-    """Too short for these data to tell: it is told, and is in no model that judges others."""
+    """Too short for these data to show: it is reported, and is in no model that judges others."""
     for how in (low_passed, late):
         found = case.found(changed(how, 1, 0.004))
         assert not stated_friction(found) and not found.addable_findings

@@ -76,7 +76,7 @@ def test_tx40_the_motor_of_joint_6_turns_joint_5_too() -> None:
     coupled = 'coupled_inertia = ["6"]\ncoupled_friction = ["6"]'
     assert coupled in text
     found = diagnosed("tx40", text.replace(coupled, ""))
-    named = {(f.effect, f.joint) for f in found.effects if f.status != "perhaps"}
+    named = {(f.effect, f.joint) for f in found.effects if f.status != "possible"}
     assert ("coupled_friction", "6") in named
     assert found.joints["5"].error_before > 1.0
     after = {name: joint.error_after for name, joint in found.joints.items()}

@@ -110,7 +110,7 @@ def test_a_spring_that_is_never_near_its_rest_is_a_constant_torque(rest, having,
     ("inertia", "built"), [((0.2, 0.3, 0.4), True), ((0.2, 0.3, 2.5), False), ((-2, 3, 4), False)]
 )
 def test_a_body_has_the_inertia_of_a_body(monkeypatch, inertia, built):
-    """Parameters of a body on link 1, each felt alike and alone."""
+    """Parameters of a body on link 1, each observed alike and alone."""
     names, values = ["XX1", "YY1", "ZZ1", "MX1", "M1"], [*inertia, 0.1, 1.0]
     felt = [SimpleNamespace(name=name, joint="1") for name in names]
     columns = np.random.default_rng(1).normal(size=(100, 5))

@@ -23,7 +23,7 @@ def falls(after):
 
 
 def searched(monkeypatch, start, end, knocks=(0.0, 0.0, 0.0), columns=None):
-    """A search over three joints: ratios of bursts before and after it, and knocks, by joint.
+    """A search over three joints: ratios of bursts before and after it, and impacts, by joint.
 
     Columns: (gain, share, ratio to its standard error) of play, by joint.
     """
@@ -93,9 +93,9 @@ def test_knocks_without_rule_are_a_description_at_most(monkeypatch):
     (play,) = detect_events(found, None, ERRORS, falls(0.04), [])
     assert (play.effect, play.joint) == ("backlash", "2")
     assert "do not follow the sign of the load" in play.objection
-    assert "90 % of the residual's energy" in play.evidence
+    assert "90 % of the residual energy" in play.evidence
     rings = column("elasticity", "3", 0.9)
-    assert said(found, [rings]) == [("elasticity", "3")], "what rings knocks too"
+    assert said(found, [rings]) == [("elasticity", "3")], "what rings has impacts too"
 
 
 def test_the_joint_bursts_most_and_its_column_describes_most(monkeypatch):
@@ -108,7 +108,7 @@ def test_the_joint_bursts_most_and_its_column_describes_most(monkeypatch):
 
 
 def test_play_whose_column_does_not_lower_the_error_is_no_fact(monkeypatch):
-    """And what nobody knows is not told as a number."""
+    """And what nobody knows is not reported as a number."""
     loud = (1.0, 52.0, 1.0)
     for columns, after in (({}, 0.04), ({1: (0.4, 0.2, 9.0)}, 0.05)):
         found = searched(monkeypatch, loud, loud, columns=columns)
@@ -116,14 +116,14 @@ def test_play_whose_column_does_not_lower_the_error_is_no_fact(monkeypatch):
         assert not play.is_confirmed and "no column of play" in play.objection
         assert play.error_before == 0.05 and np.isnan([play.error_after, play.gain]).all()
     (play,) = detect_events(found, None, ERRORS, falls(0.04), [])
-    assert play.status == "fact" and (play.error_before, play.error_after) == (0.05, 0.04)
+    assert play.status == "confirmed" and (play.error_before, play.error_after) == (0.05, 0.04)
     assert "error 5 % -> 4 %" in play.evidence
 
 
 @pytest.mark.parametrize(
     ("end", "effect", "joint", "weak"),
     [
-        ((1.0, 40.0, 1.0), "elasticity", "3", "backlash"),  # which the knocks ring
+        ((1.0, 40.0, 1.0), "elasticity", "3", "backlash"),  # which the impacts ring
         ((1.0, 1.0, 1.0), "presliding", "2", "backlash"),  # which hides play
     ],
 )

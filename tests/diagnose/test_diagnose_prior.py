@@ -15,7 +15,7 @@ from tests.link_data import buildable, links, text
 NOMINAL = links(4)
 BALANCE = HiddenEffect("counterbalance", "2", {"lever": 0.12, "base": 0.3, "angle": 0.8,
                                                "length": 0.1, "stiffness": 6000.0})  # fmt: skip
-LINE = "a counterbalance on joint 2 cannot be told from gravity: give link data"
+LINE = "a counterbalance on joint 2 cannot be distinguished from gravity: give link data"
 
 
 def fitted(values, seed, hidden=(), uncertainty=None):

@@ -107,7 +107,7 @@ def test_a_narrow_likelihood_gives_the_delta_method():
 
 @pytest.mark.rotating("long tests of diagnose")
 def test_what_is_added_is_stored_and_told_with_it(tmp_path):
-    """The dip has the exponent 2; these logs hold too few slow rows to tell it from 1."""
+    """The dip has the exponent 2; these logs hold too few slow rows to distinguish it from 1."""
     truth, (log, better) = simulated("stribeck@2", 901)[2], added_to("stribeck@2", 901)
     (extra,) = (p for p in better.fit.parameters if p.name == "Fst2")
     low, high = extra.interval

@@ -99,8 +99,8 @@ constant = partial(helical, pull=150.0)
 @pytest.mark.parametrize(
     ("torque", "named", "ties", "status"),
     [
-        (constant, "constant_force_spring", (), "fact"),
-        *rotating((helical, "counterbalance", (("constant_force_spring", "2"),), "named")),
+        (constant, "constant_force_spring", (), "confirmed"),
+        *rotating((helical, "counterbalance", (("constant_force_spring", "2"),), "likely")),
     ],
 )
 def test_a_helical_spring_and_a_constant_pull_are_told_apart(
@@ -108,7 +108,7 @@ def test_a_helical_spring_and_a_constant_pull_are_told_apart(
 ) -> None:
     first = case.found(torque).effects[0]
     assert (first.effect, first.joint, first.equivalents) == (named, "2", ties)
-    assert (first.status == "fact") is (status == "fact")
+    assert (first.status == "confirmed") is (status == "confirmed")
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")

@@ -13,10 +13,10 @@ import modeler.api
 from docsite.commands import command_pages, commands
 from docsite.gallery import coefficients, exhibit, gallery_index
 from docsite.hooks import BESIDE, notebooks
-from docsite.house import house_svg
 from docsite.interface import exported, interface_pages
 from docsite.markdown import cell, code, fenced, table
 from docsite.notebook import executed, notebook_page
+from docsite.packages import draw_packages
 from modeler.api import derive, generate, load
 from modeler.cli import main
 from tests.repository import ROOT
@@ -38,15 +38,15 @@ def test_every_page_has_its_place_and_every_place_its_page() -> None:
 
 
 @pytest.mark.rotating("pages of the site")
-def test_the_picture_of_the_house_is_that_of_the_code(regenerate: bool) -> None:
-    picture = ROOT / "docs" / "explanation" / "house.svg"
-    drawn = house_svg(ROOT / "modeler")
+def test_the_picture_of_the_packages_matches_the_imports(regenerate: bool) -> None:
+    picture = ROOT / "docs" / "explanation" / "packages.svg"
+    drawn = draw_packages(ROOT / "modeler")
     if regenerate:
         picture.write_text(drawn, encoding="utf-8")
     assert picture.read_text(encoding="utf-8") == drawn, "run `make regenerate`"
 
 
-def test_files_that_the_house_page_names_are_there() -> None:
+def test_files_that_the_architecture_page_names_exist() -> None:
     text = (ROOT / "docs" / "explanation" / "architecture.md").read_text(encoding="utf-8")
     for paragraph in text.split("\n\n"):
         room = ""

@@ -147,7 +147,7 @@ def test_gains_of_the_file_that_contradict_are_told(arm):
     said = re.search(r"all drive gains are ([\d.]+) times what", weight.line)
     assert float(said[1]) == pytest.approx(1 / 1.05, rel=0.01)
     assert "the drive gains are not those of the robot file" in gains.line
-    # one that is wrong is told although the weight may agree
+    # one that is wrong is reported although the weight may agree
     one = arm.seen(np.array([1.0, 1.0, 1.05]))
     doubts = check_known_quantities(arm.compiled, one, [arm.payload()], currents=True)
     line = next(d.line for d in doubts if "not those of the robot file" in d.line)

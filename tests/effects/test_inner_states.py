@@ -45,7 +45,7 @@ def test_since_counts_from_the_last_reversal_and_from_nothing_else(seed: int) ->
     _, since = compute_time_since_reversal(q, STEP, 3e-4)
     past = [max([0.0, *(at for at in turned if at <= t)]) for t in TIME]
     expected = TIME - past
-    # it shows once the joint has come back by 0.2 mrad; the noise of its speed is then told from
+    # it shows once the joint has come back by 0.2 mrad; the noise of its speed then differs from
     sure = expected > 0.1
     late = since[sure] - expected[sure]
     assert np.abs(late).max() < 0.06  # of a start that is slower than at constant acceleration

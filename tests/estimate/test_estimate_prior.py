@@ -218,7 +218,7 @@ def test_windows_of_long_logs_raise_the_sigmas_as_all_rows_do(model):
 
 
 def test_rows_that_repeat_each_other_weigh_less(model):
-    """Noise that remembers 0.2 s: sigmas of data and prior together stay honest."""
+    """Noise correlated over 0.2 s: sigmas of data and prior together stay honest."""
     z = []
     for seed in range(4):
         chi = true_chi(200 + seed)

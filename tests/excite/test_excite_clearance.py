@@ -97,7 +97,7 @@ def test_distances_are_coals_for_capsules_that_cross_touch_and_are_parallel():
     )
     found, points = solids.compute_distances(ends)
     told = [coal_distance(a, b, *radius) for a, b in ends]
-    apart = found[:, 0] > 0  # coal tells the depth of a penetration by other rules
+    apart = found[:, 0] > 0  # coal shows the depth of a penetration by other rules
     assert apart.sum() > 30 and np.allclose(found[apart, 0], np.array(told)[apart], atol=1e-6)
     assert np.all(np.array(told)[~apart] < 1e-6)
     between = np.linalg.norm(points[:, 0, 0] - points[:, 0, 1], axis=1)

@@ -1,4 +1,4 @@
-"""What a motion will tell, before it is run: forecast sigmas beside those of fits of its logs."""
+"""Expected accuracy of a motion, before it is run: forecast sigmas beside those of its logs."""
 
 import numpy as np
 import pytest

@@ -154,7 +154,7 @@ def test_a_model_has_its_values_in_place_of_beta(tmp_path, monkeypatch) -> None:
         assert "beta" not in function.name_in()
         if "widths" not in function.name_in():
             assert np.allclose(called(function, state), called(free[role], state), rtol=1e-12)
-    # The other doors have them as start values.
+    # The other interfaces have them as start values.
     with zipfile.ZipFile(io.BytesIO(export(model, to="fmu").data)) as archive:
         text = archive.read("modelDescription.xml").decode()
     core = export(model, to="ros2").files["src/computed_torque.hpp"].decode()

@@ -109,7 +109,7 @@ def test_torques_in_mujoco_are_those_of_the_c(name: str, tolerance: float) -> No
 @pytest.mark.rotating("long tests of export")
 @pytest.mark.parametrize("seed", [8, pytest.param(9, marks=pytest.mark.rotating)])
 def test_bodies_that_are_half_stated_have_the_torques_of_the_c(seed: int) -> None:
-    """Random values for some parameters; what is not stated is 0 in the C, and felt."""
+    """Random values for some parameters; what is not stated is 0 in the C, and has its effect."""
     rng = np.random.default_rng(seed)
     values = {"M1": 2.0, "MX1": 0.3, "ZZ1": 0.1, "M2": 3.0, "MY2": 0.4, "M3": 1.0}
     lines = [f"{name} = {x * rng.uniform(0.7, 1.3)!r}" for name, x in values.items()]

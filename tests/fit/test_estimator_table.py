@@ -1,4 +1,4 @@
-"""The table of estimators: complete, told, and refused by name."""
+"""The table of estimators: complete, reported, and refused by name."""
 
 from typing import get_args
 

@@ -196,7 +196,7 @@ def test_a_log_beside_a_model_of_another_is_judged_by_its_values():
 
 
 def test_the_delay_that_is_not_detectable_raises_the_error_by_a_third(monkeypatch):
-    """Told per joint, far below the longest that is looked for where a robot moves well."""
+    """Reported per joint, far below the longest that is looked for where a robot moves well."""
     machine, (log, _) = runs("demo-arm")
     limits = dataclasses.replace(log_faults.THRESHOLDS, min_delay=0.0)
     monkeypatch.setattr(log_faults, "THRESHOLDS", limits)

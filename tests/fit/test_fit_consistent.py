@@ -63,7 +63,7 @@ def test_the_robot_file_simulates_and_the_model_predicts_it(fitted, capsys):
 
 
 def test_a_drawing_counts(fitted, tmp_path):
-    """What no torque feels is that of the drawing, where the robot file has one."""
+    """What no torque depends on is that of the drawing, where the robot file has one."""
     name, folder, told = fitted
     first = min(n[1:] for n in told["standard"] if n.startswith("M") and n[1:] in "12345")
     values = (0.5, 0.0, 0.0, 0.6, 0.0, 0.7, 0.0, 0.0, 0.0, 20.0)

@@ -134,7 +134,7 @@ def test_a_joint_that_stands_still_leaves_the_prediction(log):
 
 
 def test_values_that_stand_in_for_what_the_model_lacks(log):
-    # without Coulomb friction in the model: torques are foretold, and Fv is not the machine's
+    # without Coulomb friction in the model: torques are predicted, and Fv is not the machine's
     lines = read_builtin_robot("demo-arm").splitlines()
     model = compiled_text("\n".join(x for x in lines if not re.match(r"Fs\d|coulomb", x)))
     assert len(model.spec.base) == len(compiled("demo-arm").spec.base) - 3

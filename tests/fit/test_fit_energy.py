@@ -72,7 +72,7 @@ def test_neighbours_that_repeat_each_other_raise_the_sigmas():
     z, raised = [], []
     for _ in range(30):
         white = random.normal(size=406)
-        noise = np.convolve(white, np.ones(7), mode="valid")  # remembers seven windows
+        noise = np.convolve(white, np.ones(7), mode="valid")  # correlated over seven windows
         found = solve_heteroscedastic(
             W, W @ [1.0, 2.0] + noise, np.ones((400, 1)), ("A", "B"), np.zeros(400, dtype=int)
         )
@@ -163,7 +163,7 @@ def test_it_is_saved_and_read_and_judged_by_its_own_errors(arm, fitted):
         cross_validate(build_base_equations(seen), every, sigma, refit).errors
         for refit in (fit.fit_without, None)
     )
-    assert np.all(own > torque)  # stretches are left out of the energies, not of the torques
+    assert np.all(own > torque)  # segments are left out of the energies, not of the torques
 
 
 def test_left_out_stretches_are_left_out_of_the_energies(arm, fitted):

@@ -82,7 +82,7 @@ def test_what_the_data_cannot_tell_is_set_aside_by_name():
     idle, tangled = found.rank.dropped_columns
     assert idle.name == "F" and "not excited" in idle.describe()
     assert tangled.name in "ABE" and set(tangled.into) == set("ABE") - {tangled.name}
-    assert f"{tangled.name} cannot be told from" in tangled.describe()
+    assert f"{tangled.name} cannot be distinguished from" in tangled.describe()
     assert found.rank.last_kept > 1e-3 and found.rank.first_dropped < 1e-12
     place = [*NAMES, "E", "F"].index(tangled.name)
     assert found.beta[place] == 0.0 and found.covariance[place, place] == 0.0

@@ -1,7 +1,7 @@
 """Loads: friction that grows with them, the force of a known one, one of unknown mass.
 
-Of two arms on a torso that turns upright, no torque tells a load's mass from its inertia: joint 3
-swings it at the distance B from the torso's axis; its mass enters only there, as B^2 M3 + YY3.
+Of two arms on a torso that turns upright, no torque separates a load's mass from its inertia: joint
+3 swings it at the distance B from the torso's axis; its mass enters only there, as B^2 M3 + YY3.
 """
 
 import json

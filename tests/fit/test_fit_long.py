@@ -75,7 +75,7 @@ def sigmas(fit):
 
 
 def assert_same_counts(whole, chunked, *more):
-    """What is told of a log, and more of it."""
+    """What is reported about a log, and more of it."""
     (one,), (other,) = whole.logs, chunked.logs
     for name in ("rows", "missing", "saturated", "gaps", "pieces", "short", *more):
         assert getattr(one, name) == getattr(other, name), name
@@ -96,7 +96,7 @@ def test_a_log_in_chunks_gives_the_fit_of_the_whole_log(logged, cutoff):
     np.testing.assert_allclose(chunked.covariance, whole.covariance, rtol=1e-6)
     assert chunked.rows == whole.rows and chunked.samples == whole.samples
     assert chunked.relative_error == pytest.approx(whole.relative_error, rel=1e-9)
-    # chunks of `ROWS`, or longer where the filters remember more than a few of their rows
+    # chunks of `ROWS`, or longer where the filters extend over more than a few of their rows
     assert 2 <= chunked.reading["chunks"] <= -(-log.rows // ROWS)
     assert chunked.reading["passes"] == 1
     more = ("samples", "derivatives", "decimation", "contradicted", "span")
@@ -422,7 +422,7 @@ SMOOTH = Processing(position_cutoff=0.0, parallel_cutoff=20.0, derivatives="log"
 @pytest.mark.parametrize(
     ("name", "processing", "memory", "method"),
     [
-        ("wrist", PLAIN, 0.2, "weighted"),  # residuals that remember
+        ("wrist", PLAIN, 0.2, "weighted"),  # autocorrelated residuals
         ("wrist", PLAIN, 0.0, "robust"),  # reads rows, and has them
         ("five-bar", PLAIN, 0.0, "weighted"),
         *rotating(

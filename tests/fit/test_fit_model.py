@@ -222,7 +222,7 @@ def test_wrong_model_files_say_where_and_what_to_do(tmp_path, model, case):
 
 EDITED = {
     "value": (("fit", "parameters", 0, "value"), "fit (the values"),
-    "covariance": (("covariance", 0, 0), "covariance (how sure"),
+    "covariance": (("covariance", 0, 0), "covariance (uncertainty"),
     "robot": (("robot_text",), "robot_text (the robot file; to change the robot, fit the changed"),
     "C": (("sources", "arm.c"), "sources (the C)"),
     "manifest": (("manifest", "base", 0, "unit"), "manifest (what"),
@@ -406,7 +406,7 @@ def test_whoever_makes_the_checksums_fit_gets_a_line_or_a_model_that_can_be_used
 
 
 def test_a_changed_robot_text_never_gives_another_robot(saved_text, tmp_path):
-    """With checksums that fit: it gives the same C, no robot, or it is told."""
+    """With checksums that fit: it gives the same C, no robot, or it is reported."""
     told = 0
     for seed in range(16):
         raw, draw = json.loads(saved_text), random.Random(f"robot {seed}")

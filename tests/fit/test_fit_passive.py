@@ -62,6 +62,6 @@ def test_a_dead_channel_leaves_the_other_joints_alone(arm):
     for parameter, true in zip(fit.parameters, beta, strict=True):
         if parameter.sigma is not None and parameter.name[-1] == "3":
             assert abs(parameter.value - true) < 5.0 * parameter.sigma
-    # the unit of a torque does not decide the rank: what the motion tells apart is a matter of W
+    # the unit of a torque does not decide the rank: what the motion separates is a matter of W
     weak = dataclasses.replace(log, tau=log.tau * [1e-13, 1.0, 1.0])
     assert identify(observe(robot, [weak])).status == "ok"

@@ -1,4 +1,4 @@
-"""The two-step fit: exact on exact logs, honest about its sigmas, plain where logs do not tell."""
+"""The two-step fit: exact on exact logs, honest about its sigmas, plain where logs do not show."""
 
 import dataclasses
 
@@ -190,7 +190,7 @@ def test_logs_without_such_a_piece_are_refused(tmp_path, capsys):
 
 
 def test_a_joint_without_a_motor_says_nothing():
-    """Its pieces are left out, and where there are no others, that is told."""
+    """Its pieces are left out, and where there are no others, that is reported."""
     log = _log("wrist", only=[0])
     observation = _observed("wrist", log)
     idle = tuple(dataclasses.replace(joint, actuated=False) for joint in observation.joints)

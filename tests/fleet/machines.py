@@ -47,7 +47,7 @@ class Scene:
         machines, periods: how many.
         apart: spread of friction among machines, relative.
         daily: scatter of friction from period to period, relative.
-        noise: of torques, as a share of their rms; half of it remembers 50 ms.
+        noise: of torques, as a share of their rms; half of it correlated over 50 ms.
         planted: what drifts.
         warm: True: a temperature column that rises with the periods.
         duration: of a log, s.

@@ -68,7 +68,7 @@ def test_an_offset_that_leaps_is_found() -> None:
 
 @pytest.mark.parametrize("robot", ["two-link", *rotating("demo-arm")])
 def test_a_load_is_no_gain(robot: str) -> None:
-    """0.8 kg on the last link weigh on several joints; a gain of one joint is not told."""
+    """0.8 kg on the last link weigh on several joints; a gain of one joint is not reported."""
     plan = (0.0,) * 2 + (0.8,) * 4
     found = fleet(Scene(planted=(Planted(2, "load", plan),)), 31, robot)
     assert told(found) == [("r3", "load", "jump")]
@@ -168,7 +168,7 @@ def test_a_log_that_is_left_out_and_a_short_fleet_are_told() -> None:
         and "left out: r1/day9" in lines
     )
     assert "r9: one period, so a drift of its own cannot be seen" in lines
-    assert "3 machines: an odd one among fewer than 5 is not told" in lines
+    assert "3 machines: an outlier among fewer than 5 is not reported" in lines
     assert found.verdict == "nothing drifts" and found.logs == 7
     assert found.to_json()["left_out"] == [{"log": "r1/day9.csv", "why": "r1/day9.csv: damaged"}]
     alike = "filtered alike: positions below 20 Hz, torques and columns below 5 Hz"

@@ -80,7 +80,7 @@ def test_great_drifts_are_no_wrong_logs(seed: int, plan: tuple[str, float]) -> N
 
 
 def test_logs_of_more_joints_are_of_another_robot() -> None:
-    """One among others without is left out; where all have them, it is told."""
+    """One among others without is left out; where all have them, it is reported."""
     pairs = logs(Scene(machines=1, periods=3, duration=6.0), 8)
 
     def wider(log: Log) -> Log:
@@ -104,7 +104,7 @@ def test_a_machine_that_hides_a_parameter_is_told() -> None:
     resting = [(named, still(log, compiled(), rng)) for named, log in pairs[4:8]]
     found = analyse_fleet(compiled().spec, [*plain[:4], *reduced(resting), *plain[8:]])
     [line] = [note for note in found.notes if note.startswith("machine ")]
-    assert line.startswith("machine r2: its logs tell ") and "Fv2 (" in line
+    assert line.startswith("machine r2: its logs determine ") and "Fv2 (" in line
     notes = analyse_fleet(compiled().spec, plain).notes
     assert not [note for note in notes if note.startswith("machine ")]
 

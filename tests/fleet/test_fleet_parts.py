@@ -31,7 +31,7 @@ def test_critical_values_are_those_of_the_handbook() -> None:
 
 
 def test_the_largest_of_rosners_data_are_odd() -> None:
-    """His three at 5 %, told here where each step gets all of the 5 %: three steps, 15 %."""
+    """His three at 5 %, reported here where each step gets all of the 5 %: three steps, 15 %."""
     data = np.array(list(map(float, ROSNER.split())))
     found = find_outlying_machines(data, np.full(54, 1e-3), 0.15)
     assert sorted(data[odd.machine] for odd in found) == [5.34, 5.42, 6.01]

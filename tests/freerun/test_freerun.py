@@ -349,7 +349,7 @@ def test_values_without_inertia_and_gains_that_lose_the_robot_are_refused(arm) -
 
 @pytest.mark.rotating("free runs of simulated machines")
 def test_an_error_that_grows_by_nature_is_not_blamed_on_the_model() -> None:
-    """True values, an upright pendulum: the run is lost, and the reason is told."""
+    """True values, an upright pendulum: the run is lost, and the reason is reported."""
     model, log = pendulum(True)
     found = simulate_free_run(model, [log], compile(model), FreeRunSettings(window=2.0))
     assert found.joints[0].whole < 90.0 and found.stability.unstable

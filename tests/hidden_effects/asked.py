@@ -1,4 +1,4 @@
-"""Asking about cases in one process or several; what is answered is remembered in a file."""
+"""Asking about cases in one process or several; what is answered is stored in a file."""
 
 import json
 import multiprocessing
@@ -36,7 +36,7 @@ def asked_once(
         read: what `to_json` gave, as an answer.
         jobs: processes.
         tell: called with every answer as it comes.
-        good: whether an answer that is remembered counts.
+        good: whether an answer that is stored counts.
     """
     known = {}
     if memory and memory.exists():

@@ -42,7 +42,7 @@ NONE = "none"
 
 @dataclass(frozen=True)
 class Case:
-    """What is asked for: no, one or two effects, noise, seed; kind of the arm, None: random.
+    """What is requested: no, one or two effects, noise, seed; kind of the arm, None: random.
 
     The sensor is a kind of `SENSORS`.
 
@@ -80,7 +80,7 @@ def make_case(case: Case, folder: Path, visible: float | None = None) -> dict[st
     """Write a case and give its truth; `truth.json` is written last.
 
     Args:
-        case: what is asked for.
+        case: what is requested.
         folder: made if need be.
         visible: least visibility of every effect; 0 takes the first draw, None what is
             usual of its kind.

@@ -1,6 +1,6 @@
 """Causes that no catalogue of effects holds: real physics, and no name may be stated as a fact.
 
-An arm never gets them unless they are asked for: they stand in `HELD_OUT_EFFECTS`, apart from
+An arm never gets them unless they are requested: they stand in `HELD_OUT_EFFECTS`, apart from
 `EFFECTS`.
 """
 

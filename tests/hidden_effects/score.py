@@ -1,6 +1,6 @@
 """Is a diagnosis right? From the truth of a case and what was said of it, both as plain data.
 
-What is "perhaps" missing is no name: it is no alarm, and nothing wrong. It counts as named first
+What is "possible" missing is no name: it is no alarm, and nothing wrong. It counts as named first
 only where it is listed first and nothing is named.
 """
 
@@ -40,11 +40,12 @@ class Score:
         seconds: of the diagnosis.
         error: why there is none; empty if there is.
         withheld: True if what is hidden was not to be named.
-        maybe: what was said to be perhaps missing, and no more.
+        maybe: what was said to be possibly missing, and no more.
         facts: what was stated as a fact.
         wrong: those of them that are none.
         sensor: kind.
-        told: True if what is wrong with the log is told, in words or by name; None if nothing is.
+        told: True if what is wrong with the log is reported, in words or by name; None if nothing
+            is.
     """
 
     case: str
@@ -96,7 +97,7 @@ class Score:
     def right(self) -> bool:
         """One effect: named first; withheld, or in no catalogue: none stated. None or two: exact.
 
-        A log that is wrong: told, and nothing named that is not there.
+        A log that is wrong: reported, and nothing named that is not there.
         """
         if self.withheld or self.held_out:
             return not self.error and not self.stated
@@ -131,10 +132,10 @@ def scored(
 ) -> Score:
     """A diagnosis (`to_json`) against the truth of its case (`truth.json`)."""
     hidden, findings = truth["hidden"], said["effects"]
-    by_status = {status: [_key(f) for f in findings if f.get("status", "named") in kinds]
+    by_status = {status: [_key(f) for f in findings if f.get("status", "likely") in kinds]
                  for status, kinds in STATUS.items()}  # fmt: skip
-    named, facts = by_status["named"], by_status["fact"]
-    listed = findings[0] if findings else None  # those that are no more than perhaps come last
+    named, facts = by_status["likely"], by_status["confirmed"]
+    listed = findings[0] if findings else None  # those that are only possible come last
     first = [_key(f) for f in findings[:1]]
     tied = [*first, *map(_key, listed["ties"])] if listed else []
     visible = min(truth["visible"], default=None)
@@ -157,7 +158,7 @@ def scored(
         fall=_fall(listed),
         seconds=said["seconds"],
         withheld=withheld,
-        maybe=tuple(by_status["perhaps"]),
+        maybe=tuple(by_status["possible"]),
         facts=tuple(facts),
         wrong=tuple(_not_of(true, facts)),
         sensor=sensor["kind"],
@@ -165,7 +166,7 @@ def scored(
     )
 
 
-STATUS = {"named": ("fact", "named"), "fact": ("fact",), "perhaps": ("perhaps",)}
+STATUS = {"likely": ("confirmed", "likely"), "confirmed": ("confirmed",), "possible": ("possible",)}
 
 
 def _not_of(true: Sequence[Mapping[str, Any]], keys: Sequence[Key]) -> list[Key]:
@@ -189,7 +190,7 @@ def _told(
     sensor: Mapping[str, Any], said: Mapping[str, Any], blamed: Sequence[Mapping[str, Any]],
     named: Sequence[Key],
 ) -> bool | None:  # fmt: skip
-    """Whether a line on the data, or a name, tells what is wrong with the log."""
+    """Whether a line on the data, or a name, shows what is wrong with the log."""
     words, joint = SENSORS[sensor["kind"]].words, sensor.get("joint")
     if not words:
         return None

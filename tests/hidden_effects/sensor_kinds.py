@@ -37,7 +37,7 @@ class Sensor:
         gain: factor of the logged torque of one joint.
         computed: True if torques come from links, rotors and the motion, and no drive.
         names: effects that may be named on account of it, on its joint or on the whole robot.
-        words: any of which tells it in a line on the data; empty if there is nothing to tell.
+        words: any of which shows it in a line on the data; empty if there is nothing to show.
     """
 
     told: str

@@ -1,4 +1,4 @@
-"""Which cases there are, and running them: made once, diagnosed once, remembered in a folder."""
+"""Which cases there are, and running them: made once, diagnosed once, stored in a folder."""
 
 import json
 from collections.abc import Callable, Iterable, Sequence
@@ -80,7 +80,7 @@ def ran(case: Case, cases: Path) -> Score:
 
 
 def _no_truth(case: Case) -> dict[str, Any]:
-    """Of a case that could not be made: what was asked for, invisible."""
+    """Of a case that could not be made: what was requested, invisible."""
     hidden: list[dict[str, Any]]
     hidden = [{"effect": name, "joint": None, "values": {}} for name in case.effects]
     return {"hidden": hidden, "visible": [0.0], "noise": case.noise, "robot": case.kind or "any",

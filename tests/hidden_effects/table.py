@@ -128,12 +128,12 @@ def _list(scores: Sequence[Score]) -> str:
 def line(score: Score) -> str:
     """A case in one line."""
     seen = "" if score.visible is None else f", visible {score.visible:.2f}"
-    names = [*map(_name, score.said), *(f"perhaps {_name(key)}" for key in score.maybe)]
+    names = [*map(_name, score.said), *(f"possibly {_name(key)}" for key in score.maybe)]
     said = score.error or f"{', '.join(names) or 'nothing'} ({score.verdict})"
     if score.wrong:
         said += f"; no fact: {', '.join(map(_name, score.wrong))}"
     if score.told is False:
-        said += "; the log's fault is not told"
+        said += "; the log's fault is not reported"
     tied = "; tied with what is hidden" if score.tied and not score.first else ""
     where = f"{score.robot}{seen}"
     hidden = ", ".join(map(_name, score.hidden)) or "nothing"

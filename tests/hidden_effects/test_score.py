@@ -26,7 +26,7 @@ def said(*findings, ties=(), data=(), verdict="missing"):
     """Of findings: name, joint and status."""
     tied = [{"effect": e, "joint": j} for e, j in ties]
     errors = {"ties": tied, "error_before": 0.10, "error_after": 0.04}
-    effects = [{"effect": e, "joint": j, "status": "".join(status) or "named"} | errors
+    effects = [{"effect": e, "joint": j, "status": "".join(status) or "likely"} | errors
                for e, j, *status in findings]  # fmt: skip
     verdict = verdict if findings else "nothing significant"
     return {"effects": effects, "verdict": verdict, "seconds": 1.0, "data": list(data)}
@@ -49,8 +49,8 @@ ANSWERS = {
     "false alarm": ([], [SPRING], [], 0, 0, 0, 0),
     "two": ([SPRING, DELAY], [DELAY, SPRING], [], 1, 1, 1, 1),
     "one of two": ([SPRING, DELAY], [DELAY], [], 1, 1, 1, 0),
-    "perhaps": ([SPRING], [(*SPRING, "perhaps")], [], 1, 1, 1, 0),
-    "perhaps of nothing": ([], [(*SPRING, "perhaps")], [], 0, 0, 0, 1),
+    "possible": ([SPRING], [(*SPRING, "possible")], [], 1, 1, 1, 0),
+    "possibly of nothing": ([], [(*SPRING, "possible")], [], 0, 0, 0, 1),
 }
 
 
@@ -70,13 +70,13 @@ def test_an_answer_is_scored(case):
 
 
 LATE_LINE = "joint 2: its position comes 5 ms too late beside the other channels"
-#             sensor, said, told, names that are wrong
+#             sensor, said, reported, names that are wrong
 FAULTS = {
     "in words": ("late", said(data=[LATE_LINE]), True, 0),
     "of another joint": ("late", said(data=[LATE_LINE.replace("2", "3")]), False, 0),
-    "by name": ("late", said((*DELAY, "fact")), True, 0),
-    "taken for another": ("late", said((*SPRING, "fact"), data=[LATE_LINE]), True, 1),
-    "gain elsewhere": ("gain", said(("drive_gain", "1", "fact")), False, 1),
+    "by name": ("late", said((*DELAY, "confirmed")), True, 0),
+    "taken for another": ("late", said((*SPRING, "confirmed"), data=[LATE_LINE]), True, 1),
+    "gain elsewhere": ("gain", said(("drive_gain", "1", "confirmed")), False, 1),
     "gain of either": ("gain", said(("drive_gain", "1"), ties=[("drive_gain", "2")]), True, 0),
     "friction computed": ("computed", said(("coulomb", "1")), False, 1),
 }  # fmt: skip
@@ -103,8 +103,8 @@ def test_the_page_counts():
         scored("none-med-1", truth(), said()),
         scored("none-med-2", truth(), said(SPRING)),
         scored("pair", truth(SPRING, DELAY), said(SPRING, ("drift", "1"))),
-        scored("a", truth(SPRING, sensor="coarse"), said((*SPRING, "fact"))),
-        scored("b", truth(SPRING, sensor="coarse"), said((*DRIFT, "fact"))),
+        scored("a", truth(SPRING, sensor="coarse"), said((*SPRING, "confirmed"))),
+        scored("b", truth(SPRING, sensor="coarse"), said((*DRIFT, "confirmed"))),
         scored("c", truth(sensor="late"), said(data=[LATE_LINE])),
         failed("none-med-3", truth(), "DataError: no rows"),
         *held_out,

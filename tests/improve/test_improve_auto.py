@@ -49,11 +49,11 @@ def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(
 ) -> None:
     first = dataclasses.replace(sprung.diagnosis.effects[0], doubt="it may be another")
     same, (line,) = add_findings(sprung.model, case.compiled, [first], sprung.logs)
-    assert same is sprung.model and line.endswith("(perhaps and no more: it may be another)")
+    assert same is sprung.model and line.endswith("(weak evidence: it may be another)")
     monkeypatch.setattr(module, "explain_weak_evidence", lambda *found: "the error falls by little")
     step = add_effect(sprung.model, case.compiled, "spring", "3", sprung.logs)
     assert (
-        "it is perhaps missing and no more: the error falls by little"
+        "the evidence that it is missing is weak: the error falls by little"
         in describe_additions(step)[0]
     )
     assert step.history[-1].to_json()["doubt"] == "the error falls by little"

@@ -1,4 +1,4 @@
-"""`modeler add` asked for what cannot be: one clear line, nothing written; or told what it cost."""
+"""`modeler add` asked for what cannot be: one line, nothing written; or its cost is reported."""
 
 from pathlib import Path
 
@@ -14,7 +14,7 @@ REFUSED = {
     "viscous": "viscous: every joint has it in this model already",
     "load_fricton": 'load_fricton: no such effect (did you mean "load_friction"',
     "spring --joint 7": "--joint 7: no such joint; expected one of 1, 2, 3",
-    "encoder_offset --joint 3": "encoder_offset: cannot be told from what the model has on",
+    "encoder_offset --joint 3": "encoder_offset: cannot be distinguished from what the model",
     "encoder_offset --joint 1": "encoder_offset: these logs show nothing of it",
     "time_delay --joint 2": "time_delay acts on the whole robot, not on one joint",
     "elasticity --joint 2": "elasticity: cannot be added (the joint needs a second",
@@ -77,7 +77,7 @@ def test_a_warm_up_takes_longer_than_a_short_log(arm: Path, run: Run, tmp_path: 
     logs = (arm / "train.parquet", "--holdout", arm / "other.parquet")
     line = ("add", arm / "m.json", "temperature_friction", "--joint", "1", *logs)
     status, _, err = run(*line, "--out", tmp_path / "m2.json")
-    assert status == 1 and "cannot be told from what the model has on these logs" in err
+    assert status == 1 and "cannot be distinguished from what the model has on these logs" in err
     assert list(tmp_path.iterdir()) == []
 
 

@@ -97,7 +97,7 @@ def settling(log: Log) -> np.ndarray:
     return on_joint(log, 0, 3.0 * np.tanh(v[:, 0] / 0.002) * np.exp(-since / 0.33))
 
 
-#            torque, joint asked for, joint found, parameter, its value, shapes, signals
+#            torque, joint requested, joint found, parameter, its value, shapes, signals
 REMEMBERED = {
     "leaning": (leaning, None, "2", "Kl2", 6.0, {}, []),
     "settling": (settling, "1", "1", "Kt1", 3.0, {"w": 0.33}, ["direction", "since"]),

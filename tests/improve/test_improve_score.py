@@ -64,7 +64,7 @@ def test_what_is_printed_falls_or_the_step_is_not_kept() -> None:
     total = math.sqrt((0.1**2 + 0.5**2) / 2.0)
     assert math.isclose(seen.whole.before, total, rel_tol=1e-9)
     alike = score_change(unseen(*old), unseen(old[0], (1.0 - 1e-6) * old[1])).whole
-    assert alike.after < alike.before and alike.t_ratio > 2.0, "surely less"
+    assert alike.after < alike.before and alike.t_ratio > 2.0, "significantly less"
     assert len(set(format_error_pair(alike.before, alike.after))) == 1 and not alike.is_reduced, (
         "but as printed"
     )

@@ -1,4 +1,4 @@
-"""Jobs here and in processes: the same results to the bit, and what is told of those that fail."""
+"""Jobs here and in processes: the same results to the bit, and a report of those that fail."""
 
 import os
 import signal

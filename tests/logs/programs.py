@@ -104,7 +104,7 @@ def twincat(folder: Path, table: Table) -> Path:
 
 
 def instrument(folder: Path, table: Table) -> Path:
-    """No column of time: a line before the names tells the rate."""
+    """No column of time: a line before the names shows the rate."""
     head = "# Data recorder 3000\n# Sample rate: 1000 Hz\n# pos1, pos2, pos3, trq1, trq2, trq3\n"
     return written(folder / "run.asc", head + text_of(rows_of(table)[:, 1:], ", "))
 

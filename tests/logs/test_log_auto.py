@@ -47,7 +47,7 @@ def test_a_pattern_over_a_joint_replaces_it(case):
 
 
 def degrees(case) -> dict[str, np.ndarray]:
-    """Names that tell a role, ranges that tell a unit."""
+    """Names that show a role, ranges that show a unit."""
     table = {"stamp": case.table["time"] * 1e3}
     for k, column in enumerate(np.rad2deg(joined(case.table, "q")).T):
         table[f"winkel_{k}"] = column
@@ -61,7 +61,7 @@ def test_a_unit_by_range_is_believed_where_it_fits(case, tmp_path):
     log = case.check(path, ["auto"])
     (told,) = [line for line in log.reading_notes if "auto" in line]
     assert "q<j> = winkel_{n-1} [deg]" in told and "time = stamp [ms]" in told
-    assert not any("auto" in line for line in log.notes)  # which would be doubts
+    assert not any("auto" in line for line in log.notes)  # which would be warnings
 
 
 def test_what_is_stated_goes_over_the_guess(case, tmp_path):

@@ -1,4 +1,4 @@
-"""`modeler log`: what is told of a log that somebody has spoilt in a known way; no doubt else."""
+"""`modeler log`: warnings about a log that is spoilt in a known way, and no other warning."""
 
 import json
 import tomllib
@@ -45,7 +45,7 @@ def inspected(tmp_path):
 
 @pytest.fixture
 def log_output(run, tmp_path):
-    """What the command tells of a table: as JSON, and on stdout."""
+    """What the command shows of a table: as JSON, and on stdout."""
 
     def log_output(table, *words):
         path = parquet(tmp_path / "run.parquet", table)

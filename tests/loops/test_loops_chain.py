@@ -70,7 +70,7 @@ def logged(robot: str, folder: Path, name: str, seed: int, *hidden: str) -> str:
 def test_a_load_on_the_platform_is_called_a_load(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The mass of a platform that translates is felt like masses of the legs that end on it."""
+    """The mass of a platform that translates acts like masses of the legs that end on it."""
     hidden = ("--hide", "payload:mass=1.983")
     plain = logged("orthoglide-2003", tmp_path, "a.csv", 1)
     loaded = [logged("orthoglide-2003", tmp_path, f"{k}.csv", k, *hidden) for k in (2, 3)]

@@ -10,7 +10,7 @@ from tests.oracles.complex_step import Oracle
 
 POSTURES, REACH = 80, 3.0
 ZERO = 1e-11  # length of a column without effect, of the longest
-CERTAIN = 1e-10  # singular value of what torques tell, of the largest
+CERTAIN = 1e-10  # singular value of what torques determine, of the largest
 NUMERIC = "on_a_plane"
 
 

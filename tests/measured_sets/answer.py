@@ -1,4 +1,4 @@
-"""What was said of a case, as plain data that a file remembers."""
+"""What was said of a case, as plain data that a file holds."""
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
@@ -40,7 +40,7 @@ class Answer:
 
     @property
     def first(self) -> Key | None:
-        """What is named first, with a doubt or without; None if nothing is."""
+        """What is named first, with a warning or without; None if nothing is."""
         effects = self.said.get("effects")
         return key(effects[0]) if effects else None
 

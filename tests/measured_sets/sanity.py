@@ -1,6 +1,6 @@
 """Can the values that a diagnosis states be those of a machine?
 
-What it says with an objection of its own is left alone: there the reader is warned.
+What it says with a caveat of its own is left alone: there the reader is warned.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -33,7 +33,7 @@ def faults(found: Diagnosis) -> tuple[str, ...]:
     lines = []
     for finding in (*found.effects, *found.refinements):
         name = finding.effect + (f"@{finding.joint}" if finding.joint else "")
-        way = "fact" if finding.status == "fact" else "hedged"
+        way = "fact" if finding.status == "confirmed" else "hedged"
         wrong = list(gain_faults(finding.to_json()))
         if not finding.objection:
             wrong += [*value_faults(finding.parameters), *_friction_faults(found, finding)]

@@ -70,7 +70,7 @@ def _builtin(name: str) -> Callable[[], str]:
 
 
 def _panda() -> str:
-    """The built-in arm with friction; its sensors stand behind the gears and feel no rotor."""
+    """The built-in arm with friction; its sensors stand behind the gears and measure no rotor."""
     return read_builtin_robot("panda") + (
         '\n[effects]\nviscous = "all"\ncoulomb = "all"\noffset = "all"\n'
     )

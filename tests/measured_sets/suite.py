@@ -1,4 +1,4 @@
-"""Running cases: each is asked once and remembered in a file; errors are asked again."""
+"""Running cases: each is asked once and stored in a file; errors are asked again."""
 
 from collections.abc import Callable, Sequence
 from functools import partial

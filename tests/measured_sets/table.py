@@ -12,7 +12,7 @@ def stability(answers: Sequence[Answer]) -> str:
     """Every diagnosis, and for each set whether what is stated stays."""
     header = ["set", "direction", "factor", "verdict", "effects", "ties", "refinements", "seconds"]
     rows = [[*_case(answer), answer.verdict, *_diagnosis(answer)] for answer in answers]
-    doubted = "A `?` stands behind what is named with a doubt.\n\n"
+    doubted = "A `?` stands behind what is named with a warning.\n\n"
     return doubted + markdown(header, rows) + "\n" + _by_set(answers, stays)
 
 
@@ -38,7 +38,7 @@ def improvement(answers: Sequence[Answer]) -> str:
     header = ["set", "direction", "held-out error by joint, %", "whole", "scatter", "seconds"]
     rows = [[*_case(answer)[:2], *_change(answer)] for answer in answers]
     said = (
-        "A `!` stands behind an error that surely rises. *whole*: rms over the joints, "
+        "A `!` stands behind an error that rises significantly. *whole*: rms over the joints, "
         "with the effects; *scatter*: its fall in standard errors.\n\n"
     )
     steps = "\n".join(_steps(answer) for answer in answers)
@@ -97,7 +97,7 @@ def _effect(finding: Mapping[str, Any]) -> str:
 
 
 def _label(finding: Mapping[str, Any]) -> str:
-    """Effect and joint, and the waves per turn that tell one ripple from another."""
+    """Effect and joint, and the waves per turn that distinguish one ripple from another."""
     waves = (finding.get("parameters") or finding.get("shapes") or {}).get("m")
     ripple = finding["effect"].endswith("ripple") and waves is not None
     return named(key(finding)) + (f" m={waves:.3g}" if ripple else "")

@@ -149,7 +149,7 @@ def test_emps_is_asked(tmp_path, capsys):
     out, _ = capsys.readouterr()
     assert "asymmetric_viscous@1" in out and "- emps: stays" in out
     assert main(["check", *asked, "--factors", "1"]) == 0
-    assert capsys.readouterr().err == ""  # remembered
+    assert capsys.readouterr().err == ""  # stored
     assert main(["auto", *asked]) == 0
     out, _ = capsys.readouterr()
     assert "kept asymmetric_viscous@1" in out

@@ -53,7 +53,7 @@ MADE: dict[str, Callable[["Session"], Any]] = {
 
 
 class Session(collections.abc.Mapping[str, Any]):
-    """Every kind of object that the API gives, by the name of what it is; made when asked for."""
+    """Every kind of object that the API gives, by the name of what it is; made when requested."""
 
     def __init__(self) -> None:
         self._made: dict[str, Any] = {}

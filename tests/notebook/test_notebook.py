@@ -77,7 +77,7 @@ def _paper(printed: str) -> None:
 
 def _csv_to_c(printed: str) -> None:
     """The C and Python say the same torques."""
-    assert "decimal commas" in printed and "no doubts" in printed
+    assert "decimal commas" in printed and "no warnings" in printed
     c, python = re.search(r"^([\d. ]{20,})$", printed, re.M), re.search(r"array\((.*)\)", printed)
     assert c is not None and python is not None
     assert json.loads(python[1])[0] == pytest.approx([float(x) for x in c[1].split()], abs=1e-5)
@@ -103,7 +103,7 @@ def _fleet(printed: str) -> None:
 
 TRUE = {"paper": _paper, "csv-to-c": _csv_to_c, "what-is-missing": _what_is_missing, "urdf": _urdf,
         "fleet": _fleet}  # fmt: skip
-"""The story that each notebook tells is true."""
+"""The story that each notebook shows is true."""
 
 
 def test_the_site_shows_the_last_run_of_the_same_program(tmp_path: Path, monkeypatch: Any) -> None:

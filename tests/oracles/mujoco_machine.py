@@ -18,7 +18,7 @@ mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo (PyPI: mujoco
 
 STEP = 2e-4
 STIFF = f'solref="{2 * STEP:g} 1" solimp="0.99999 0.99999 0.001 0.5 2"'
-LIGHT = 1e-6  # kg and kg m2 of rows without a body: MuJoCo wants some
+LIGHT = 1e-6  # kg and kg m2 of rows without a body: MuJoCo needs some
 
 
 def numbers(values) -> str:

@@ -50,7 +50,7 @@ def pinocchio_model(robot: Robot, chi: Mapping[str, float] = NOTHING):
 
 
 def depth_first(robot: Robot) -> list[Joint]:
-    """Rows, branch after branch: Pinocchio wants what a joint carries to follow it at once."""
+    """Rows, branch after branch: Pinocchio needs what a joint carries to follow it at once."""
     carried: dict[str, list[Joint]] = {}
     for joint in robot.joints:
         carried.setdefault(joint.antecedent, []).append(joint)

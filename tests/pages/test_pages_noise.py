@@ -1,4 +1,4 @@
-"""The noise of the motion as it is told and drawn: `modeler log`, pages, JSON, model files."""
+"""The noise of the motion as it is reported and drawn: `modeler log`, pages, JSON, model files."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""The room of pages: what is vendored is what it says; the index of a folder."""
+"""The package of pages: what is vendored is what it says; the index of a folder."""
 
 import hashlib
 import re

@@ -535,7 +535,7 @@ def wrist_rank():
 
 
 def values_at(p, table):
-    """g, J and S at some postures: all that can be felt."""
+    """g, J and S at some postures: all that is observable."""
     qs = np.random.default_rng(1).uniform(-3, 3, (6, 3))
     rows = [[*mass_matrix(q, p).ravel(), *(function(f"g{k}", q, p) for k in (1, 2, 3))] for q in qs]
     return np.concatenate(rows)

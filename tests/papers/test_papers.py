@@ -87,7 +87,7 @@ def test_a_known_difference_that_is_not_there_is_a_difference():
     ],
 )  # fmt: skip
 def test_a_wrong_charge_or_a_wrong_equality_is_different(name, changes):
-    """Charges and equalities that earlier versions told, and some that would be like them."""
+    """Charges and equalities that earlier versions reported, and some that would be like them."""
     assert one(name, **changes).verdict is LineVerdict.DIFFERENT
 
 

@@ -188,8 +188,8 @@ def test_one_line_lists_what_never_changes_and_stands_last(tmp_path, capsys):
     log = dataclasses.replace(log, qd=-motion(seed=5)[2])
     place = write(tmp_path / "a.csv", log, spare1=0.0 * log.time, spare2=0.0 * log.time)
     assert main(["log", place]) == 0
-    doubts = [x for x in capsys.readouterr().out.splitlines() if x.startswith("doubt: ")]
-    assert doubts[-1] == "doubt: spare1, spare2 never change: are they connected?"
+    doubts = [x for x in capsys.readouterr().out.splitlines() if x.startswith("warning: ")]
+    assert doubts[-1] == "warning: spare1, spare2 never change: are they connected?"
     assert "qd1 has the other sign" in doubts[0] and len(doubts) == 3
 
 

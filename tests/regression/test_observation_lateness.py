@@ -75,7 +75,7 @@ def test_a_joint_that_reads_the_speed_backwards_is_not_called_late():
 
 @pytest.mark.parametrize("lags", [(0.0, 0.04), *rotating(((0.03, 0.03),))])
 def test_late_velocities_are_not_used_where_they_do_harm(lags):
-    """Positions are differentiated; with --derivatives log they are used all the same, and told."""
+    """Positions are differentiated; with --derivatives log they are used too, and reported."""
     log, beta = drawn(np.random.default_rng(5), 500, lags)
     seen = observe(ARM, [log])
     (report,) = seen.report.logs
@@ -102,7 +102,7 @@ def test_a_small_delay_does_no_harm_and_the_velocities_are_used():
     [("panda", 7), *rotating(("ur10e", 6), ("dualarm7", 7), ("kinova_gen3", 7), ("dvrk_psm", 7))],
 )
 def test_only_the_panda_filters_its_velocities(measured_folder, folder, joints):
-    """5 ms in all joints, which its controller's filter makes; told, and small enough to use."""
+    """5 ms in all joints, from its controller's filter; reported, and small enough to use."""
     spec = manifest_of([str(j + 1) for j in range(joints)])
     for path in sorted((measured_folder / folder).glob("*.parquet")):
         late = consistency_of(read_log(path, spec), 10.0).delays

@@ -1,4 +1,4 @@
-"""Samples with which loops cannot be closed: told, and left out of what is fitted and judged."""
+"""Samples with which loops cannot be closed: reported, and left out of fit and judgement."""
 
 import dataclasses
 import json

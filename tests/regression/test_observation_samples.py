@@ -298,7 +298,7 @@ def test_joints_at_rest_do_not_count_whatever_their_noise(colour):
 
 
 def test_a_commanded_joint_moves_no_faster_than_its_command():
-    """Alone, a joint that shakes from 1 Hz on shows no gap: its command tells."""
+    """Alone, a joint that shakes from 1 Hz on shows no gap: its command shows."""
     clean, noise = arm_log(joints=1), noise_of("pink", 0.03)
     shaken = arm_log(noise, joint=0, joints=1)
     assert band_of(first_piece(shaken)) > 2.0
@@ -363,7 +363,7 @@ def test_the_floor_is_the_density_of_white_noise(rate, size):
     assert found.density == pytest.approx(2.0 * size**2 / rate, rel=0.3)
     assert found.deviation == pytest.approx(size, rel=0.15)
     assert 2.0 < found.hides_above_hz < 30.0 and found.colour == 0.0
-    # what is differentiated below a cut-off has the noise that is told
+    # what is differentiated below a cut-off has the noise that is reported
     speed = np.gradient(
         apply_zero_phase_lowpass(white[:, None], 1 / rate, 20.0, 100)[:, 0], 1 / rate
     )

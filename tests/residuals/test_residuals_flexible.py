@@ -1,4 +1,4 @@
-"""The flexible rival, where it is known how much of a residual is noise."""
+"""The nonparametric baseline, where it is known how much of a residual is noise."""
 
 import numpy as np
 import pytest

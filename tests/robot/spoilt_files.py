@@ -1,4 +1,4 @@
-"""XML files of robots, spoilt as files are: read, or told in one line, in bounded memory."""
+"""XML files of robots, spoilt as files are: read, or reported in one line, in bounded memory."""
 
 import random
 import re

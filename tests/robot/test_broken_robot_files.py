@@ -43,7 +43,7 @@ BROKEN = [
 
 
 def message_of(text: bytes | str, path: Path) -> str:
-    """What is told of a file, which is one line and not longer than one reads."""
+    """What is reported about a file, which is one line and not longer than one reads."""
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(RobotError) as error:
         read_robot(path)
@@ -77,7 +77,7 @@ def test_other_formats_are_named(text: str, told: str, tmp_path: Path):
 
 
 def test_what_can_be_read_is_read(tmp_path: Path):
-    """A link without inertial, an axis that is not of length 1, an impossible inertia: told."""
+    """A link without inertial, an axis that is not of length 1, an impossible inertia: reported."""
     path = tmp_path / "arm.urdf"
     path.write_text(edited(ARM, (INERTIA, INERTIA.replace('izz="0.001"', 'izz="0.5"'))))
     told = " ".join(read_robot(path).readings)

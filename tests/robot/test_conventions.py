@@ -254,7 +254,7 @@ def test_puma_of_four_books_has_the_same_torques():
     assert not np.allclose(shifted[2], link_frames("craig", [0] * 6)[2])
 
 
-# What is not as it must be said is told, with the line to write.
+# What is not as it must be said is reported, with the line to write.
 
 HEAD = 'name = "arm"\ngravity = [0, 0, -9.81]\n[symbols]\nA2 = 0.4\nAL = 1.57\n'
 FLAT = 'columns = ["j", "theta", "d"]\nrows = [["1", "q1", 0.1], ["2", "q2", 0]]\n'

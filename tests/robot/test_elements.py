@@ -142,7 +142,7 @@ CHANGES: dict[str, Callable[[str], str]] = {
 
 
 def has_range(joint: str) -> bool:
-    """Whether limits leave a range; where they do not, soft limits are told together with them."""
+    """Whether limits leave a range; where they do not, soft limits are reported with them."""
     ends = dict(re.findall(r'\b(lower|upper)\s*=\s*"([^"]*)"', joint))
     return "continuous" in joint or float(ends.get("lower", 0)) < float(ends.get("upper", 0))
 
@@ -209,7 +209,7 @@ def drawn_urdfs(count: int, joints: int = 25) -> list[Path]:
 def test_no_mutant_of_a_public_urdf_is_read_as_the_file_itself(
     files: int, each: int, tmp_path: Path
 ) -> None:
-    """Read, refused or told: the robot file or its notes are others."""
+    """Read, refused or reported: the robot file or its notes are others."""
     rng = np.random.default_rng()
     for original in drawn_urdfs(files, 25 if files == 5 else 60):
         path = tmp_path / original.name

@@ -1,4 +1,4 @@
-"""MJCF as body trees: what is read of each element, what is told, what is refused in one line."""
+"""MJCF as body trees: what is read of each element, reported, or refused in one line."""
 
 import math
 import re
@@ -464,7 +464,7 @@ MUTANTS = (
 
 
 def file_and_notes(folder: Path, text: str) -> tuple[str, tuple[str, ...]] | None:
-    """The robot file and what is told of it; None where it is refused."""
+    """The robot file and what is reported about it; None where it is refused."""
     try:
         made = convert_tree(cut_tree(read(folder, text)), "arm.xml")
     except RobotError as error:

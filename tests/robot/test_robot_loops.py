@@ -1,4 +1,4 @@
-"""Legs, relations, platforms and loops of a robot file: what is read, and how mistakes are told."""
+"""Legs, relations, platforms and loops of a robot file: what is read, how mistakes are reported."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Every mistake in a robot file is told in one line: where, got, expected, what to do."""
+"""Every mistake in a robot file is reported in one line: where, got, expected, what to do."""
 
 import random
 

@@ -57,7 +57,7 @@ def test_17_base_parameters_and_3_of_friction_for_any_coupling(seed):
     [(np.diag([1.0, 2.0, 0.5]), 18 + 3), (np.diag([-3.0, 1.5, 7.0]), 18 + 3), (_G, 19 + 3)],
 )
 def test_rotor_inertias_add_one_or_two(G, count):
-    """18 with a diagonal G, where Jm3 tells PJ22 from PJ16; 19 with a lower triangular one."""
+    """18 with a diagonal G, where Jm3 separates PJ22 from PJ16; 19 with a lower triangular one."""
     effects = 'rotor_inertia = "all"\ncoulomb = "all"\n'
     base = derive_base_parameters(derive_model(_coupled(_sums(G), effects)))
     assert len(base.parameters) == count

@@ -1,4 +1,4 @@
-"""SYMORO's `.par` files are robot files: the same robot, exact; what is lost is told."""
+"""SYMORO's `.par` files are robot files: the same robot, exact; what is lost is reported."""
 
 import math
 import re

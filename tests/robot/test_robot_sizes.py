@@ -1,4 +1,4 @@
-"""What is too large, too deep or too many in a robot file is told at its place, before any work."""
+"""What is too large, deep or many in a robot file is reported at its place, before any work."""
 
 import pytest
 

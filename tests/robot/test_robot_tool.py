@@ -1,4 +1,4 @@
-"""`[tool]`: the frame that a controller moves; every mistake is told in one line."""
+"""`[tool]`: the frame that a controller moves; every mistake is reported in one line."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Units of lengths, swapped units, and slips of a table that are told."""
+"""Units of lengths, swapped units, and slips of a table that are reported."""
 
 import re
 from fractions import Fraction

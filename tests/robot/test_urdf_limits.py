@@ -1,4 +1,4 @@
-"""What a URDF states of limits reaches the motion that is planned, and what it does not is told."""
+"""Limits of a URDF reach the motion that is planned; what is missing is reported."""
 
 import re
 
@@ -37,7 +37,7 @@ RANGE = 'lower="-1" upper="1" velocity="2"'
     ],
 )
 def test_acceleration_that_is_stated_is_the_limit(limit: str, expected: float) -> None:
-    """The smaller of both; the text claims nothing else, and a jerk is told."""
+    """The smaller of both; the text claims nothing else, and a jerk is reported."""
     robot, made = convert(limit)
     assert robot.limits["1"].acceleration == expected
     assert "assumed" not in made.text and "no file states" not in made.text

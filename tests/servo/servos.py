@@ -73,7 +73,7 @@ def recorded(robot: Robot, servo: Servo, goals: np.ndarray, fps: float) -> Frame
 def write_dataset(
     folder: Path, episodes: list[Frames], motors: list[str], fps: float, load: bool = True
 ) -> Path:
-    """A LeRobot data set (v2.1): degrees, and loads in units of 0.1 %, as the servos tell them."""
+    """A LeRobot data set (v2.1): degrees, and loads in units of 0.1 %, as the servos show them."""
     tables, index = [], 0
     names = [f"{motor}.pos" for motor in motors]
     for number, frames in enumerate(episodes):

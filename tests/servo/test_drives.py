@@ -1,4 +1,4 @@
-"""[drives]: currents from duties, the same filter over both, and what is told and refused."""
+"""[drives]: currents from duties, the same filter over both, and what is reported and refused."""
 
 import numpy as np
 import pytest

@@ -7,7 +7,7 @@ from modeler.simulation import plant
 
 @pytest.fixture
 def compiled_plants() -> None:
-    """Asked for by tests of the compiled plant."""
+    """Requested by tests of the compiled plant."""
 
 
 @pytest.fixture(autouse=True)

@@ -289,7 +289,7 @@ def test_a_force_pushes_in_its_window_only():
 
 
 def test_an_elastic_transmission_has_the_frequency_of_two_bodies_on_a_spring():
-    """w^2 = K (1/Ia + 1/J), and the motor alone feels a sudden torque."""
+    """w^2 = K (1/Ia + 1/J), and on the motor alone acts a sudden torque."""
     source = robot(SPINNER)
     _, plant = made("elasticity:stiffness=8000,damping=1e-9", source)
     columns = []
@@ -358,7 +358,7 @@ def test_encoders_that_are_wrong_deceive_the_controller(clean):
     error = 0.01 * np.sin(waved.truth.q[:, 2] + 0.5)
     np.testing.assert_allclose((waved.q - waved.truth.q)[:, 2], error, atol=1e-12)
     assert np.abs(waved.q - waved.qc).max() < 1.5 * np.abs(clean.q - clean.qc).max()
-    for log in (moved, waved):  # read what they are told from the start
+    for log in (moved, waved):  # read what determines them from the start
         np.testing.assert_allclose(log.q[0], log.qc[0], atol=1e-9)
 
 

@@ -34,7 +34,7 @@ def demonstration(tmp_path_factory: pytest.TempPathFactory) -> Path:
             await page.go("Fit")
             await page.click("Fit")
             await page.go("What is missing")
-            await page.click("Look")
+            await page.click("Diagnose")
             await page.click("Preview")
 
     run_coroutine(clicked())
@@ -68,7 +68,7 @@ def axis_project(axis: Path, tmp_path: Path) -> Path:
 
 @pytest.fixture(scope="session")
 def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
-    """A server that is only asked for what it must not give, or gets files.
+    """A server that is only requested what it must not give, or gets files.
 
     Beside its folder lies a file that a link in it leads to.
     """

@@ -23,7 +23,7 @@ from modeler.studio.project import Project, Workspace
 from modeler.studio.studio import Hub
 
 SHORT = ("--duration", "24", "--rate", "200")
-"""Of what is simulated here, whatever was asked for."""
+"""Of what is simulated here, whatever was requested."""
 
 
 class InProcess:
@@ -99,7 +99,7 @@ class Page:
             return [*ElementFilter(kind=own, content=text, local_scope=False, only_visible=True)]
 
     def listeners(self, event: str) -> list[Any]:
-        """What is told of an event, in the order of the page."""
+        """What is reported about an event, in the order of the page."""
         return [
             one
             for one in self.user.client.elements.values()
@@ -128,7 +128,7 @@ class Page:
             element.value = value
 
     def trigger(self, element: Any, event: str, args: Any = None) -> None:
-        """What the script of an element tells."""
+        """What the script of an element shows."""
         UserInteraction(self.user, {element}, None).trigger(event, args)
 
     async def click(self, name: str, event: str = "click") -> None:
@@ -158,7 +158,7 @@ class Page:
         return content
 
     async def drops(self, *files: Path) -> None:
-        """Files on the screen, as the browser sends them and tells of it."""
+        """Files on the screen, as the browser sends them and reports them."""
         zone = self.every("upload")[-1]
         kind = zone.props["url"]
         sent = [

@@ -149,7 +149,7 @@ def test_a_film_passes_through_the_rows(tmp_path: Path) -> None:
     assert log_guess(str(file)).joints == 2
 
 
-# Stretches: an algebra of sets, with instants as its elements.
+# Segments: an algebra of sets, with instants as its elements.
 
 
 def drawn_log(timeline: Any, rng: np.random.Generator) -> ProjectLog:
@@ -197,7 +197,7 @@ def test_first_roles(timeline: Any) -> None:
         assert (project.collect_words("train"), project.collect_words("test")) == ([train], [test])
 
 
-# Where doubts lie.
+# Where warnings lie.
 
 
 def test_marks_of_a_log_lie_where_it_was_spoilt(

@@ -175,7 +175,7 @@ def test_killed_while_receiving_is_swept_away_by_the_next(tmp_path: Path) -> Non
 
 @pytest.fixture
 def receive(dropped: Any, tmp_path: Path) -> Callable[..., str]:
-    """Takes a log of which so many bytes come, and perhaps more are said to come."""
+    """Takes a log of which so many bytes come, and possibly more are said to come."""
 
     async def stream(data: bytes) -> AsyncIterator[bytes]:
         for start in range(0, len(data), 65_536):

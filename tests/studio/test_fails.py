@@ -40,7 +40,7 @@ def one_zoom(page: Any) -> None:
     page.wait_for_function(
         f"({RANGES})().every(([a, b]) => Math.abs(a - {low}) < 0.3 && Math.abs(b - {high}) < 0.3)"
     )
-    # What is drawn then is asked for anew: it has only rows of that window.
+    # What is drawn then is requested anew: it has only rows of that window.
     page.wait_for_function(
         f"""() => [...document.querySelectorAll('.js-plotly-plot')]
         .filter((p) => p._fullLayout && p._fullLayout.meta.time)

@@ -84,15 +84,15 @@ def test_a_report_that_somebody_wrote_reaches_nothing(hostile: Path, window) -> 
     """Its scripts draw, as those of ours do; they are not let into the studio."""
     with served(hostile) as studio:
         page = window().open(studio)
-        page.go("Take away")
+        page.go("Export")
         page.click("Report page")
         page.sees("Open the report page")
         (report,) = (hostile / "pages").glob("*.html")
         ours = report.read_text(encoding="utf-8")
         free = ours.replace("Content-Security-Policy", "x-none")  # what ours forbids itself
         report.write_text(free + REACHING, encoding="utf-8")
-        page.go("Watch it fall")
-        page.go("Take away")
+        page.go("Error history")
+        page.go("Export")
         with page.page.context.expect_page() as opened:
             page.page.get_by_text("Open the report page").first.click()
         shown = opened.value

@@ -1,4 +1,4 @@
-"""A project folder: what its file says, what stretches are left, which steps lead to a model."""
+"""A project folder: what its file says, what segments are left, which steps lead to a model."""
 
 import dataclasses
 import math

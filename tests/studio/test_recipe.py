@@ -93,7 +93,7 @@ OPTIONS = (("method", "robust"), ("essential_below", 20.0))
 
 @pytest.fixture(scope="module")
 def worked(tmp_path_factory) -> Workspace:
-    """A project with a mapping, stretches, a gap and bans: fitted, looked at, added, set aside."""
+    """A project with a mapping, segments, a gap and bans: fitted, looked at, added, set aside."""
     folder = tmp_path_factory.mktemp("worked") / "it's a project"
     (folder / "logs").mkdir(parents=True)
     (folder / "robot.toml").write_text(read_builtin_robot("two-link"), encoding="utf-8")
@@ -161,7 +161,7 @@ def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
         json.loads((place / "results/2.json").read_text()) for place in (worked.folder, fresh)
     )
     assert there == here  # the same diagnosis
-    assert not (fresh / "models/3.json").exists()  # what was set aside is not told again
+    assert not (fresh / "models/3.json").exists()  # what was set aside is not reported again
     assert before == {p: p.stat().st_mtime_ns for p in worked.folder.rglob("*") if p.is_file()}
 
 

@@ -42,7 +42,7 @@ def cell(window: Window, row: int, column: str) -> Any:
 
 
 def poses_are_those_of(window: Window, place: Path) -> None:
-    """What the frame told last is what `modeler show --json` says of the file."""
+    """What the frame reported last is what `modeler show --json` says of the file."""
     shown = show(parse_robot_text(place.read_text(encoding="utf-8"), "robot.toml"))
     told = window.page.evaluate(f"{STANDING}.frames")
     for frame in serialise_posture(shown.skeleton, shown.posture)["frames"]:
@@ -190,7 +190,7 @@ def test_a_tie_of_a_diagnosis_becomes_the_words_of_a_motion() -> None:
     )
     (between,) = pairs
     assert between == "load_friction@2,spring@2"
-    assert pairs[between] == "tell load friction on joint 2 from spring on joint 2"
+    assert pairs[between] == "distinguish load friction on joint 2 from spring on joint 2"
     made = Project("robot.toml", 3, steps=(Step(3, 0, Task("fit")),))
     parsed = build_parser().parse_args(
         build_command_words(made, Task("excite", between=between, duration=5.0))

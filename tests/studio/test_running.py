@@ -22,7 +22,7 @@ LONG = ("simulate", "demo-arm", "--duration", "3000", "--out")
 
 
 def run(folder: Path, *words: str) -> tuple[Outcome, list[tuple[float | None, str]]]:
-    """The end of a command, and all that was told before."""
+    """The end of a command, and all that was reported before."""
 
     async def waited() -> tuple[Outcome, list[tuple[float | None, str]]]:
         running = RunningCommand(words, folder, "the work")
@@ -79,7 +79,7 @@ def test_an_error_is_the_line_that_the_command_prints(tmp_path, words, status, t
 
 def test_notes_are_no_errors(tmp_path: Path) -> None:
     (tmp_path / "arm.urdf").write_text(URDF)
-    outcome, _ = run(tmp_path, "robots", "arm.urdf")  # which tells on stderr what it assumed
+    outcome, _ = run(tmp_path, "robots", "arm.urdf")  # which shows on stderr what it assumed
     assert outcome.status == 0 and outcome.error == ""
     assert any("[mdh]" in line for line in outcome.lines)
 

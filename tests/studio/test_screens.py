@@ -75,10 +75,10 @@ def test_an_effect_is_banned_previewed_and_added(arm: Path) -> None:
         words = ("diagnose", "models/5.json", "logs/train.parquet")
         assert build_command_words(project, found) == (*words, "--holdout", "logs/held_out.parquet")
         await page.sees("friction that grows with the load on the gear: joint 2")
-        await page.sees("fact: it is stated as missing")
+        await page.sees("Confirmed")
         await page.sees("Preview. Joint 2: measured and predicted")
         await page.click("Not on this joint")
-        await page.sees("stretches or bans were changed since this was found; look again")
+        await page.sees("segments or bans were changed since this was found; diagnose again")
         assert page.project.without == ("load_friction@2",)
         await page.sees("--without load_friction@2")
         await page.click("take back the ban of load_friction@2")
@@ -87,7 +87,7 @@ def test_an_effect_is_banned_previewed_and_added(arm: Path) -> None:
         page.change("joint", "3")
         await page.sees("modeler add models/5.json spring logs/train.parquet")
         await page.click("Add")
-        await page.sees("The way of this model")
+        await page.sees("History")
         assert page.project.current == tried.number and page.project.steps == project.steps
 
     story(arm, told, "/missing")
@@ -101,14 +101,14 @@ def test_the_error_falls_and_undo_loses_nothing(axis_project: Path) -> None:
         steps = page.project.steps
         await page.sees("Error after every effect")
         await page.click("Undo to step 1")
-        await page.sees("Set aside")
+        await page.sees("Other branches")
         assert page.project.steps == steps and page.project.collect_path() == [steps[0]]
         await page.click("Go to step 2")
         assert (page.project.steps, page.project.current) == (steps, 2)
         await page.sees("joint 1: error")
         (bars,) = page.listeners("plotly_click")
         page.trigger(bars, "plotly_click", {"points": [{"pointNumber": 0}]})  # "as fitted"
-        await page.sees("Set aside")
+        await page.sees("Other branches")
         assert page.project.collect_path() == [steps[0]]
 
     story(axis_project, told, "/fall")
@@ -173,7 +173,7 @@ def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
         frame = next(one for one in page.every() if one.tag == "iframe")
         page.trigger(frame, "joint", {"detail": "3"})  # a click on it
         await page.sees("Joint 3: measured and predicted")
-        # A zoom is asked for anew, and has only rows of that window.
+        # A zoom is requested anew, and has only rows of that window.
         (plot,) = plots(page, "measured")
         page.trigger(plot, "plotly_relayout", {"xaxis.range[0]": 2.0, "xaxis.range[1]": 3.0})
 
@@ -191,7 +191,7 @@ def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
         await page.sees("Joint 3: does the residual still have structure?")
         page.choose("toggle", "train")
         await page.sees("modeler compare models/5.json logs/train.parquet")
-        # A log that went away is told in place.
+        # A log that went away is reported in place.
         (arm / "logs/train.parquet").rename(arm / "away")
         await page.go("Where it fails")
         await page.sees("logs/train.parquet: cannot be read")
@@ -215,9 +215,9 @@ def test_days_and_models_are_compared_and_drift_is_looked_for(arm: Path) -> None
         assert build_command_words(page.project, page.project.steps[-1]) == words
         assert page.project.current == 5  # a comparison makes no model
         page.choose("tabs", "drift")
-        await page.sees("how paths end")
-        page.change("how paths end", "{period}.parquet")
-        await page.click("Look for drift")
+        await page.sees("File name pattern")
+        page.change("File name pattern", "{period}.parquet")
+        await page.click("Detect drift")
         await page.sees("What drifted, leapt or is apart")
         await page.sees("nothing drifts")
 
@@ -260,7 +260,7 @@ def test_a_table_is_pasted_edited_and_nothing_is_lost(tmp_path: Path) -> None:
         await page.sees("taken as a table of convention classical")
         assert '"270.5 mm"' in file.read_text()
         assert '"400 mm"' in await edit("table", "cell", row=1, column=3, text="400 mm")
-        # A mistake is told; the file stays, and so does what was typed.
+        # A mistake is reported; the file stays, and so does what was typed.
         good = file.read_text()
         assert await edit("table", "cell", row=1, column=3, text="400 m m") == good
         await page.sees('[mdh], row "2", column a: got "400 m m"')
@@ -352,7 +352,7 @@ def test_logs_are_dropped_mapped_cut_and_doubted(tmp_path: Path) -> None:
         assert page.project.collect_words("test") == ["logs/c.parquet"]
         await page.sees("A guess by names")
         await page.until(lambda: plots(page, "joint 1") and page.hub.running is None, "curves")
-        await page.until(lambda: page.every(text="why"), "a doubt")
+        await page.until(lambda: page.every(text="why"), "a warning")
 
         def drawn() -> np.ndarray:
             trace = next(
@@ -382,7 +382,7 @@ def test_logs_are_dropped_mapped_cut_and_doubted(tmp_path: Path) -> None:
         await page.until(lambda: "q2=Winkel_2:deg" in mapping(), "the column")
         page.change("all in", "deg")
         await page.until(lambda: page.project.mapping == guess, "the unit of all")
-        # The spike: why, and leave it out; then a stretch is held out, and another one left out.
+        # The spike: why, and leave it out; then a segment is held out, and another one left out.
         await page.click("why")
         await page.sees("No machine does that")
         await page.click("Leave out")
@@ -407,7 +407,7 @@ def test_logs_are_dropped_mapped_cut_and_doubted(tmp_path: Path) -> None:
         assert len(page.project.logs) == 3 and (folder / "logs/broken.parquet").exists()
         # One that is chosen where it lies.
         shutil.copy(folder / "logs/b.parquet", folder / "far.parquet")
-        await page.click("Choose where it lies")
+        await page.click("Browse (no copy)")
         await page.click(str(folder))
         page.choose("checkbox", True, "far.parquet")
         await page.click("Take")

@@ -220,7 +220,7 @@ def test_explained_shares_are_those_of_what_was_put_in() -> None:
     assert np.isnan(viewing.compute_explained_share(np.ones(n), noise)) and np.isnan(
         viewing.compute_explained_share(x[:9], x[:9])
     )
-    slow = np.convolve(noise, np.ones(500), "same")  # remembers: no function of a slow channel
+    slow = np.convolve(noise, np.ones(500), "same")  # autocorrelated: no function of a slow channel
     assert viewing.compute_explained_share(np.arange(n) * 1e-3, slow) < 0.1
 
 

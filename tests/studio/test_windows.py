@@ -39,7 +39,7 @@ def test_a_second_studio_reads_and_follows_and_takes_over_when_the_first_ends(
         reader.click("Take over")
         reader.page.get_by_role("button", name="Take over").wait_for(state="hidden")
         reader.click("Fit", exact=True)
-        reader.sees("What it is worth")
+        reader.sees("Fit quality")
         assert other.project.steps[: len(steps)] == steps and other.project.current
 
 

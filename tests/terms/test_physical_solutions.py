@@ -273,6 +273,6 @@ def test_rotor_inertias_that_group_with_nothing_are_told():
 
 
 def test_quotients_of_the_same_lengths_are_told_apart():
-    """m21 (L1**2 L1/L4 - L1 L1**2/L4) is 0: with quotients as letters of their own it told m21."""
+    """m21 (L1**2 L1/L4 - L1 L1**2/L4) is 0: with quotients as letters of their own it gave m21."""
     for known in (("cx12", "cx11", "Izz11", "m22", "cy11"), ("cx11", "m11", "m22", "m12", "Izz11")):
         assert len(find_determined(system_of("five-bar"), known)[0]) < 11

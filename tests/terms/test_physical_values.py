@@ -46,7 +46,7 @@ CASES = [
 
 @pytest.mark.parametrize(("name", "known", "share"), CASES)
 def test_values_and_sigmas_stand_a_monte_carlo_test(name, known, share):
-    """120 fits and measured parameters by chance: mean and spread are those that are told."""
+    """120 fits and measured parameters by chance: mean and spread are those that are reported."""
     system, rng = system_of(name), np.random.default_rng(7)
     solution = solve(system, known)
     truth = random_letters(system, rng)
@@ -102,7 +102,7 @@ def test_several_roots_are_told_and_none_is_chosen():
 
 @pytest.mark.rotating("long tests of terms")
 def test_known_parameters_are_tested_and_the_test_is_honest():
-    """z of consistent known values: root mean square 1; one that is 5 % off is told."""
+    """z of consistent known values: root mean square 1; one that is 5 % off is reported."""
     system, truth, rng = system_of("wrist"), example(), np.random.default_rng(9)
     solution = solve(system, (*SEVEN, "cm", "ct2", "bt1"))
     assert solution.surplus == 2

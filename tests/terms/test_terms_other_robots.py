@@ -89,7 +89,7 @@ LEVER = robot_text(
 
 def test_which_letters_are_felt():
     """An axis needs its mass; rotors and angles count, once; MZ of a last link enters as cz3, and
-    with a known length not alone; of a difference of letters it is told.
+    with a known length not alone; of a difference of letters it is reported.
     """
     table = table_of("emps")
     assert [(c.name, c.function, c.monomial) for c in table.coefficients] == [("PJ1", "J11", "1")]

@@ -18,7 +18,7 @@ LONG_AGO = 1e3  # s since a joint has turned back that has not moved yet
 
 @dataclass(frozen=True)
 class Motion:
-    """Signals of one stretch at even steps; (rows, n), SI, n joints.
+    """Signals of one segment at even steps; (rows, n), SI, n joints.
 
     Attributes:
         q, v, a: position, speed, acceleration.

@@ -1,4 +1,4 @@
-"""The house in one picture: packages as boxes, what they import as lines; drawn from the code."""
+"""Draws the architecture from the code: packages as boxes, what they import as lines."""
 
 import ast
 from pathlib import Path
@@ -9,7 +9,7 @@ AROUND = ("core", "simulation", "papers", "views", "api", "cli")
 FILL = {"derives": "#fde8c8", "numbers": "#d3e6f8", "around": "#e6e6e6"}
 
 
-def house_imports(package: Path) -> dict[str, set[str]]:
+def package_imports(package: Path) -> dict[str, set[str]]:
     """{package: the packages that it imports}, but for the way round of an added effect."""
     found: dict[str, set[str]] = {path.parent.name: set() for path in package.glob("*/__init__.py")}
     for room, others in found.items():
@@ -24,7 +24,7 @@ def house_imports(package: Path) -> dict[str, set[str]]:
     }
 
 
-def house_levels(imports: dict[str, set[str]]) -> dict[str, int]:
+def package_levels(imports: dict[str, set[str]]) -> dict[str, int]:
     """{package: length of the longest way down to the core}."""
     levels: dict[str, int] = {}
 
@@ -38,7 +38,7 @@ def house_levels(imports: dict[str, set[str]]) -> dict[str, int]:
     return levels
 
 
-def house_lines(imports: dict[str, set[str]]) -> list[tuple[str, str]]:
+def package_edges(imports: dict[str, set[str]]) -> list[tuple[str, str]]:
     """Imports that no way through other packages implies."""
 
     def below(room: str) -> set[str]:
@@ -57,14 +57,14 @@ def _side(room: str) -> tuple[int, str]:
     return (0 if room in NORTH else 1 if room in AROUND else 2, room)
 
 
-def house_svg(package: Path) -> str:
+def draw_packages(package: Path) -> str:
     """The picture: the core at the foot, the command line on top.
 
     Args:
         package: folder of the package.
     """
-    imports = house_imports(package)
-    levels = house_levels(imports)
+    imports = package_imports(package)
+    levels = package_levels(imports)
     rows = [
         sorted((r for r in levels if levels[r] == k), key=_side)
         for k in range(max(levels.values()) + 1)
@@ -78,7 +78,7 @@ def house_svg(package: Path) -> str:
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT * len(rows) + 20}" '
         'font-family="sans-serif" font-size="15" text-anchor="middle">'
     ]
-    for room, other in house_lines(imports):
+    for room, other in package_edges(imports):
         (x, y), (u, v) = place[room], place[other]
         parts.append(
             f'<line x1="{x:.0f}" y1="{y + ROW / 2:.0f}" x2="{u:.0f}" y2="{v - ROW / 2:.0f}" '
