@@ -28,7 +28,7 @@ def motion(derivation, samples: int) -> list[np.ndarray]:
     """A smooth motion around home: q, qd, qdd of the coordinates."""
     model = derivation.model
     states = draw_random_states(model, 1, np.random.default_rng(1))
-    places = list(model.closure.given) if model.closure else range(states[0].shape[1])
+    places = list(model.closure.actuated) if model.closure else range(states[0].shape[1])
     q, qd, qdd = (x[0, list(places)] for x in states)
     way = np.sin(np.linspace(0, 6 * np.pi, samples))[:, None]
     return [np.ascontiguousarray(q + 0.01 * way), qd + 0 * way, qdd + 0 * way]
@@ -73,7 +73,7 @@ def longest_failure(compiled: CompiledModel) -> float:
     """Longest call, s, that closes nothing with the evaluations that are allowed, 5000."""
     closure, longest = compiled.spec.closure, 0.0
     assert closure is not None
-    home = np.array([closure.home[k] for k in closure.given])
+    home = np.array([closure.home[k] for k in closure.actuated])
     n = len(home)
     for way in (*np.eye(n), *-np.eye(n), np.ones(n), (-1.0) ** np.arange(n)):
         for far in (1.0, 10.0, 100.0, 1e3):  # rad or m

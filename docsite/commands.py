@@ -60,7 +60,7 @@ def _page(name: str, found: argparse.ArgumentParser) -> str:
 def estimators() -> str:
     """What the command shows, as a table."""
     head = ("method", "is", "law", "source", "do not use it", "assumes")
-    told = [(a.title, a.law, a.source, a.avoid, a.motion) for a in ABOUT.values()]
+    told = [(a.title, a.law, a.source, a.limitations, a.motion) for a in ABOUT.values()]
     named = zip(ABOUT, told, strict=True)
     return table(head, [(code(id), *map(cell, words)) for id, words in named])
 

@@ -185,7 +185,7 @@ def _shown(effect: Effect, scene: Scene) -> _Shown:
     fitted = api.simulate(robot, seed=1, **measured) if scene.unloaded else run
     compiled = api.compile_model(emitted)
     model = api.fit(derivation, emitted, api.observe(compiled, [fitted]))
-    (hidden,) = run.truth.hidden
+    (hidden,) = run.truth.hidden_effects
     values = ", ".join(f"{name} = {value:.4g}" for name, value in hidden.values.items())
     where = f", joint {hidden.joint}" if hidden.joint else ""
     return _Shown(model, f"{effect.id}{where}: {values}", api.diagnose(model, [run]))
@@ -241,7 +241,7 @@ def _page(effect: Effect, shown: str, apart: str, shapes: Mapping[str, float]) -
         f"**Range.** {cell(effect.range)}.", "", f"**Source.** {cell(effect.source)}.", "",
         "## What it leaves in the residual", "",
         f"Look for: {cell(effect.signature)}.", "", shown, "",
-        "## Confounders", "", f"{cell(_sentence(effect.look_alikes))}", "",
+        "## Confounders", "", f"{cell(_sentence(effect.confounders))}", "",
         apart, "",
         "## In a robot file", "", _written(effect, shapes),
     ]  # fmt: skip
@@ -306,7 +306,7 @@ def _apart(effect: Effect, shown: _Shown) -> str:
     ties = [_place(name, joint) for name, joint in finding.equivalents]
     rivals = [
         (_place(name, joint), f"{100 * max(gain, 0.0):.3g} %")
-        for name, joint, gain in shown.found.rivals
+        for name, joint, gain in shown.found.alternatives
         if joint == finding.joint and name != effect.id
     ][:5]
     parts = []
@@ -330,7 +330,7 @@ def _between(finding: Finding, shown: _Shown) -> str:
     from modeler.api.motion import build_subject, parse_question
 
     subject = build_subject(shown.model)
-    rivals = [*finding.equivalents, *((name, joint) for name, joint, _ in shown.found.rivals)]
+    rivals = [*finding.equivalents, *((name, joint) for name, joint, _ in shown.found.alternatives)]
     for name, joint in rivals:
         if name == finding.effect or joint != finding.joint or joint is None:
             continue
@@ -362,8 +362,8 @@ def _written(effect: Effect, shapes: Mapping[str, float]) -> str:
         text = insert_effect('name = "arm"\n', effect.id, joint, shapes)
         shaft = '\n[coupling]\n2 = "q1 + q2"  # the motor of joint 2 also turns with joint 1\n'
         return block(text[text.index("[effects]") :] + shaft * effect.is_coupled, "toml")
-    if effect.hindrance:
-        return f"No column carries it: {cell(effect.hindrance)}."
+    if effect.obstacle:
+        return f"No column carries it: {cell(effect.obstacle)}."
     return (
         f"No robot file names it. `modeler add arm.model.json {effect.id} run.parquet --out "
         "better.model.json` puts it into the model."

@@ -83,7 +83,7 @@ def diagnose_case(folder: Path, withheld: Sequence[str] = ()) -> dict[str, Any]:
         withheld: effects that may not be named, nor those that are the same column.
     """
     known = [effect for effect in map(find_effect, withheld) if effect is not None]
-    same = [other for effect in known for other in effect.same_as]
+    same = [other for effect in known for other in effect.equivalent_effects]
     with _cache_of_its_own():
         model = chain_of(folder / "robot.toml").fit([folder / "train.parquet"])
         asked = [folder / "train.parquet", folder / "holdout.parquet"]

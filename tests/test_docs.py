@@ -336,7 +336,7 @@ def test_the_table_of_effects_on_loops_is_true():
     )  # fmt: skip
     listed = {key: names.split(", ") for key, names in rows.items()}
     joints = [e for e in CATALOGUE if e.acts in (EffectTarget.JOINT, EffectTarget.MOTOR)]
-    joints += [e for e in CATALOGUE if e.acts is EffectTarget.POSITION and not e.hindrance]
+    joints += [e for e in CATALOGUE if e.acts is EffectTarget.POSITION and not e.obstacle]
     has_c = [
         e for e in joints if e.acts is not EffectTarget.POSITION and e.forms[0].names <= {*MOTION}
     ]

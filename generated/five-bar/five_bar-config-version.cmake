@@ -1,6 +1,6 @@
 # find_package(five_bar) takes any, find_package(five_bar 2) any of this C interface,
-# find_package(five_bar 2.13798.50197.51944) only what has the signature 35e6c415cae802d5.
-set(PACKAGE_VERSION 2.13798.50197.51944)
+# find_package(five_bar 2.53704.12217.55424) only what has the signature d1c82fb9d880dc4b.
+set(PACKAGE_VERSION 2.53704.12217.55424)
 set(PACKAGE_VERSION_COMPATIBLE FALSE)
 set(PACKAGE_VERSION_EXACT FALSE)
 if("${PACKAGE_FIND_VERSION}" STREQUAL PACKAGE_VERSION)

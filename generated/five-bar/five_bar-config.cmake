@@ -1,6 +1,6 @@
 # find_package(five_bar) gives the targets five_bar::five_bar and five_bar::batch: the kind that BUILD_SHARED_LIBS asks for, else the
 # other; COMPONENTS static or shared insists. five_bar_SIGNATURE is that of the whole folder.
-set(five_bar_SIGNATURE 35e6c415cae802d5)
+set(five_bar_SIGNATURE d1c82fb9d880dc4b)
 
 if(five_bar_FIND_COMPONENTS)
   set(_modeler_kinds ${five_bar_FIND_COMPONENTS})
@@ -13,7 +13,7 @@ set(_modeler_lib "${CMAKE_CURRENT_LIST_DIR}/../..")
 
 foreach(_modeler_kind IN LISTS _modeler_kinds)
   # A library of another signature that is left in the same place has another file.
-  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/five_bar-${_modeler_kind}-35e6c415cae802d5.cmake")
+  set(_modeler_file "${CMAKE_CURRENT_LIST_DIR}/five_bar-${_modeler_kind}-d1c82fb9d880dc4b.cmake")
   if(TARGET five_bar::five_bar OR NOT EXISTS "${_modeler_file}")
     continue()
   endif()
@@ -27,7 +27,7 @@ foreach(_modeler_kind IN LISTS _modeler_kinds)
         set(_modeler_name libfive_bar_model)
       endif()
       if(_modeler_kind STREQUAL "shared")
-        string(APPEND _modeler_name .so.35e6c415cae802d5)
+        string(APPEND _modeler_name .so.d1c82fb9d880dc4b)
       else()
         string(APPEND _modeler_name .a)
       endif()
@@ -47,5 +47,5 @@ endforeach()
 if(NOT TARGET five_bar::five_bar)
   set(five_bar_FOUND FALSE)
   set(five_bar_NOT_FOUND_MESSAGE
-    "no library of signature 35e6c415cae802d5 here that is ${_modeler_kinds}; install it again")
+    "no library of signature d1c82fb9d880dc4b here that is ${_modeler_kinds}; install it again")
 endif()

@@ -23,9 +23,9 @@ extern "C" {
 #endif
 
 /* What five_bar_signature() of the library that belongs to this header returns. */
-#define FIVE_BAR_SIGNATURE "35e6c415cae802d5"
-#define FIVE_BAR_SIGNATURE_1 0x35e6c415u
-#define FIVE_BAR_SIGNATURE_2 0xcae802d5u
+#define FIVE_BAR_SIGNATURE "d1c82fb9d880dc4b"
+#define FIVE_BAR_SIGNATURE_1 0xd1c82fb9u
+#define FIVE_BAR_SIGNATURE_2 0xd880dc4bu
 
 /* Of the calls: raised when one takes other arguments. Which version of modeler wrote the folder
  * stands in five_bar_generator.h. */

@@ -106,7 +106,7 @@ static void base_rows(struct five_bar_posture *p, double *rows, const double *qd
 
 const char *five_bar_signature(void)
 {
-    return "35e6c415cae802d5";
+    return "d1c82fb9d880dc4b";
 }
 
 int five_bar_tree_next(const double *q, const double *qd, const double *qdd, int next,

@@ -82,7 +82,7 @@ const modeler_tiled *five_bar_tiled(void)
 
 const char *five_bar_tile_signature(void)
 {
-    return "35e6c415cae802d5";
+    return "d1c82fb9d880dc4b";
 }
 
 #else /* for one instruction set */

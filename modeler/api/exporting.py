@@ -83,7 +83,7 @@ def _export_casadi(thing: Robot | IdentifiedModel) -> Exported:
     derivation = _derive_model(thing)
     values = _collect_values(thing.spec, thing)[0] if isinstance(thing, IdentifiedModel) else ()
     data, functions, missing = write_casadi(
-        derivation.model, derivation.base, [value.now for value in values] or None
+        derivation.model, derivation.base, [value.after for value in values] or None
     )
     notes = ("casadi.FileDeserializer(FILE).unpack() gives the list of functions", *missing)
     name = derivation.robot.name
@@ -101,7 +101,7 @@ def _export_fmu(thing: Robot | IdentifiedModel) -> Exported:
     values, value_notes = _collect_values(
         spec, thing if isinstance(thing, IdentifiedModel) else None
     )
-    beta = [value.now for value in values]
+    beta = [value.after for value in values]
     texts = build_fmu_files(emitted, derivation.model, derivation.base, beta)
     files, notes = {name: text.encode() for name, text in texts.items()}, [*value_notes]
     system, ending = _BINARIES.get(sys.platform, (sys.platform, "so"))
@@ -128,7 +128,7 @@ def _export_ros2(thing: Robot | IdentifiedModel) -> Exported:
     source = (
         "Values of the robot file" if fitted is None else f"Values of a fit, {fitted.fit.method}"
     )
-    texts = build_ros2_files(emitted, [value.now for value in values], source)
+    texts = build_ros2_files(emitted, [value.after for value in values], source)
     files = {name: text.encode() for name, text in texts.items()}
     notes = (
         "the ROS part was never built or run with ROS; see README.md of the package",
@@ -186,7 +186,7 @@ def export(
 ) -> Exported:
     """Exports a robot or a model for another program; `table()` of the result lists the numbers.
 
-    >>> export(model, to="urdf").table("not held").column("effect")
+    >>> export(model, to="urdf").table("lost effects").column("effect")
     []
 
     Args:

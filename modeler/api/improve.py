@@ -111,7 +111,9 @@ def add_proposals(
     for first in firsts:
         text = insert_own_effect(text, first.finding.effect, first.definition)
     replaced = {
-        (name, discovery.finding.joint) for discovery in firsts for name in discovery.instead
+        (name, discovery.finding.joint)
+        for discovery in firsts
+        for name in discovery.replaced_effects
     }
     beside = [
         f

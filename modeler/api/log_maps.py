@@ -74,12 +74,12 @@ def build_log_maps(
         inspection = inspect_log(
             log, compiled, LogMap(names=names.names, topic=names.topic, files=names.files)
         )
-        clock = next((part for part in inspection.streams if part.clock), None)
+        clock = next((part for part in inspection.streams if part.is_clock), None)
         if clock and not names.topic and [p.kind for p in inspection.streams].count(clock.kind) > 1:
             names = dataclasses.replace(names, topic=clock.name)
         key = (
-            inspection.suggested,
-            inspection.suggested_without_ranges,
+            inspection.suggested_map,
+            inspection.suggested_map_without_ranges,
             *(c.name for c in inspection.channels),
         )
         if key not in known:
@@ -147,16 +147,16 @@ def _guess_map(
         )
         return dataclasses.replace(stated.merge_over(guess), guess_notes=(message, *either))
 
-    if inspection.suggested == inspection.suggested_without_ranges:
-        return map_over_stated(inspection.suggested_without_ranges)
+    if inspection.suggested_map == inspection.suggested_map_without_ranges:
+        return map_over_stated(inspection.suggested_map_without_ranges)
 
     def fit_mapping(names: LogMap) -> MappingFit:
         return _fit_mapping(compiled, place, names)
 
     return choose_mapping(
         fit_mapping,
-        map_over_stated(inspection.suggested_without_ranges),
-        map_over_stated(inspection.suggested),
+        map_over_stated(inspection.suggested_map_without_ranges),
+        map_over_stated(inspection.suggested_map),
     )[1]
 
 
@@ -234,7 +234,7 @@ def _fit_mapping(
         result_with_verdict = judge_fit(compiled, rows, result, find_log_faults(compiled, rows))
     except ModelerError:
         return MappingFit(float("inf"))
-    usable = result_with_verdict.verdict is not None and result_with_verdict.verdict.usable
+    usable = result_with_verdict.verdict is not None and result_with_verdict.verdict.valid
     return MappingFit(result_with_verdict.relative_error, (), usable, rows.report)
 
 

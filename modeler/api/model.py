@@ -376,7 +376,7 @@ class Model(IdentifiedModel):
 
     def _find_log(self, log: model_file.LogProvenance, what: str) -> AnyLog:
         for memory_log in self.in_memory_logs:
-            if memory_log.content == log.content and memory_log.name == log.name:
+            if memory_log.content == log.fingerprint and memory_log.name == log.name:
                 return memory_log
         ask = _suggest_logs(what)
         if not log.path:

@@ -270,7 +270,9 @@ class RecordedLogs:
         compiled = self.subject.compiled
         if encoders == Encoders():  # as those of the logs
             noise_estimates = self.observation.report.bands.noise
-            noise_by_joint = {n.joint: n.deviation for n in noise_estimates if n.of == "positions"}
+            noise_by_joint = {
+                n.joint: n.deviation for n in noise_estimates if n.quantity == "positions"
+            }
             noise = [noise_by_joint.get(joint.name, 0.0) for joint in compiled.spec.joints]
             encoders = Encoders(0, np.array(noise))
         log = self.subject.predict_log(motion, rate, encoders)
@@ -282,7 +284,7 @@ class RecordedLogs:
             tuple(log.name for log in self.logs),
             (self.fit.condition_scaled, both.condition_scaled),
         )  # fmt: skip
-        return dataclasses.replace(motion, gain=gain)
+        return dataclasses.replace(motion, information_gain=gain)
 
 
 def fit_recorded_logs(subject: Subject, logs: Logs, mapping: Mapped = ()) -> RecordedLogs:
@@ -510,12 +512,12 @@ def build_bounds(
     closure, home = compiled.spec.closure, None
     passive: list[tuple[int, float, float]] = []
     if closure is not None:
-        home = np.array(closure.home)[list(closure.given)]
+        home = np.array(closure.home)[list(closure.actuated)]
         stated = {**robot.limits, **changes}
         passive = [
             (place, stated[name].lower, stated[name].upper)
             for place, name in enumerate(closure.variables)
-            if place not in closure.given and name in stated
+            if place not in closure.actuated and name in stated
         ]
     corners = {
         name: _check_numbers("boxes", name, numbers, moving, (6,), "x0, x1, y0, y1, z0, z1")

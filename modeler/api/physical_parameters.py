@@ -183,7 +183,7 @@ class Physical(Result):
         missing = [x for x in self.system.letters if x not in cad.values]
         if missing:
             raise DataError(f"--cad: no value of {', '.join(missing)}; expected all parameters")
-        return rate_sets(self.system, candidate_sets.easiest, cad.values)
+        return rate_sets(self.system, candidate_sets.easiest_sets, cad.values)
 
     def read_cad(self, file: str | Path = NOMINAL) -> KnownValues:
         """Reads CAD values from a file; without one from the robot file."""

@@ -424,7 +424,7 @@ def estimators() -> Table:
     >>> estimators().column("method")[:2]
     ['weighted', 'ordinary']
     """
-    rows = [(a.id, a.title, a.law, a.source, a.avoid, a.motion) for a in ABOUT.values()]
+    rows = [(a.id, a.title, a.law, a.source, a.limitations, a.motion) for a in ABOUT.values()]
     names = "method, title, law, source, when not to use it, noise of the motion"
     return Table.build("estimators", names, rows)
 

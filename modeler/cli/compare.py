@@ -77,7 +77,7 @@ def run_compare(args: argparse.Namespace) -> Json:
         args.picture, lambda: [*pages.draw_all_pictures(comparison), *comparison_pictures]
     )
     print_lines([following], "next: ")
-    return comparison.to_json() | {"doubts": [*stated_lines[1:], *doubts]}
+    return comparison.to_json() | {"warnings": [*stated_lines[1:], *doubts]}
 
 
 def compare_with_findings(
@@ -167,7 +167,7 @@ def _run_model_comparison(args: argparse.Namespace, places: Sequence[str]) -> Js
     draw_pictures(args.picture, lambda: pages.draw_model_pictures(model_comparison))
     return validation.compare(model_comparison.predictions[0]).to_json() | {
         "models": model_comparison.as_dicts(),
-        "doubts": [],
+        "warnings": [],
     }
 
 

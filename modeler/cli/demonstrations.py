@@ -162,7 +162,7 @@ def run_reproduce(args: argparse.Namespace) -> Json:
     if args.section != "methods":
         lines = _check_lines(paper)
         args.different += [
-            line.printed for line in lines if line.verdict is papers.LineVerdict.DIFFERENT
+            line.printed_text for line in lines if line.verdict is papers.LineVerdict.DIFFERENT
         ]
         result["lines"] = [asdict(line) | {"verdict": line.verdict.value} for line in lines]
     if args.section != "print":
@@ -201,7 +201,7 @@ def _check_lines(paper: papers.Paper) -> list[papers.CheckedLine]:
     print_result()
     for line in lines:
         if line.verdict is papers.LineVerdict.UNCHECKED:
-            print_result(f"  [{line.verdict.value}] {line.place}: {line.why}")
+            print_result(f"  [{line.verdict.value}] {line.place}: {line.reason}")
     print_result()
     print_result(_count_outcomes([line.verdict for line in lines]))
     return lines
@@ -214,15 +214,15 @@ def _print_robot(
     print_result(f"{name}: {derived.robot.title}")
     for line in lines:
         slip = f": {papers.SLIPS[line.slip]}" if line.verdict is papers.LineVerdict.MISPRINT else ""
-        print_result(f"  [{line.verdict.value}{slip}] {line.place}: {line.printed}")
+        print_result(f"  [{line.verdict.value}{slip}] {line.place}: {line.printed_text}")
         if line.verdict in (papers.LineVerdict.MEASURED, papers.LineVerdict.CONSISTENT):
-            print_result(f"      must hold: {line.derived}")
+            print_result(f"      must hold: {line.derived_text}")
         if line.verdict in (papers.LineVerdict.MISPRINT, papers.LineVerdict.DIFFERENT):
-            print_result(f"      derived: {line.derived}")
-            if line.corrected:
-                print_result(f"      corrected, which holds: {line.corrected}")
-        if line.why:
-            print_result(f"      {line.why}")
+            print_result(f"      derived: {line.derived_text}")
+            if line.correction:
+                print_result(f"      corrected, which holds: {line.correction}")
+        if line.reason:
+            print_result(f"      {line.reason}")
 
 
 def _run_methods(paper: papers.Paper) -> list[papers.MethodTable]:
@@ -230,12 +230,14 @@ def _run_methods(paper: papers.Paper) -> list[papers.MethodTable]:
         tables = METHODS[paper.name](paper, report)
     for table in tables:
         print_lines(["", table.title])
-        print_lines(table.setting, "  ")
-        cells = [(row.what, row.printed, row.ours) for row in table.rows]
+        print_lines(table.settings, "  ")
+        cells = [(row.quantity, row.printed_value, row.computed_value) for row in table.rows]
         head, *texts = align_columns([("", "printed", "ours"), *cells], (0, 1, 2))
         print_result(f"  {head.rstrip()}")
         for row, text in zip(table.rows, texts, strict=True):
-            print_result(f"  {text}  [{row.outcome.value}]" + (f" {row.why}" if row.why else ""))
+            print_result(
+                f"  {text}  [{row.outcome.value}]" + (f" {row.reason}" if row.reason else "")
+            )
     print_result()
     print_result(
         f"methods: {_count_outcomes([row.outcome for table in tables for row in table.rows])}"
@@ -250,7 +252,7 @@ def _count_outcomes(outcomes: Sequence[enum.Enum]) -> str:
 
 def _collect_failed(tables: Sequence[papers.MethodTable]) -> list[str]:
     return [
-        f"{table.title}: {row.what}"
+        f"{table.title}: {row.quantity}"
         for table in tables
         for row in table.rows
         if row.outcome is papers.Outcome.FAILED
@@ -259,4 +261,4 @@ def _collect_failed(tables: Sequence[papers.MethodTable]) -> list[str]:
 
 def _convert_table(table: papers.MethodTable) -> dict[str, object]:
     rows = [asdict(row) | {"outcome": row.outcome.value} for row in table.rows]
-    return {"title": table.title, "setting": list(table.setting), "rows": rows}
+    return {"title": table.title, "settings": list(table.settings), "rows": rows}

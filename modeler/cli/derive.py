@@ -434,8 +434,8 @@ def run_generate(args: argparse.Namespace) -> Json:
             print_result(f"  widths of the Coulomb friction: {', '.join(fitted.widths)}")
         result |= {
             "fitted_signature": fitted.signature,
-            "usable": fitted.usable,
-            "doubts": list(fitted.doubts),
+            "valid": fitted.valid,
+            "warnings": list(fitted.warnings),
         }
     show_next([f"make -C {shlex.quote(args.out)} check"])
     return result

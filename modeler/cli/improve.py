@@ -74,7 +74,7 @@ def run_diagnose(args: argparse.Namespace) -> Json:
             f"logs explained: {', '.join(file_names[: len(args.logs)])}",
             *model.warning,
         ]
-        origin = views.Origin(args.model, file_names, bool(diagnosis.held_out), following)
+        origin = views.Origin(args.model, file_names, bool(diagnosis.held_out_logs), following)
         with show_activity("drawing"):
             page = views.build_diagnosis_page(diagnosis, provenance, origin)
     print_lines([*format_lines(diagnosis), *model.warning])
@@ -83,7 +83,7 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     if args.add:
         print_lines([*format_waterfall(better), *describe_last_addition(better), *left_out])
         print_lines([args.out], "written: ")
-        return diagnosis.to_json() | {"left_out": list(left_out)}
+        return diagnosis.to_json() | {"not_added": list(left_out)}
     show_next(following)
     return diagnosis.to_json()
 
@@ -152,7 +152,7 @@ def run_add(args: argparse.Namespace) -> Json:
         places.append(args.robot_out)
     pictures = []
     if (args.report is not None or args.picture is not None) and better.history:
-        held_out = better.history[-1].held_out
+        held_out = better.history[-1].held_out_logs
         origin = views.Origin(args.out, held_out or args.logs, bool(held_out), following)
         page = views.build_history_page(better, left_out, origin)
         if args.report is not None:
@@ -169,7 +169,7 @@ def run_add(args: argparse.Namespace) -> Json:
     print_lines(places, "written: ")
     show_next(following)
     steps = [step.to_json() for step in better.history]
-    return better.fit.to_json() | {"waterfall": steps, "left_out": list(left_out)}
+    return better.fit.to_json() | {"waterfall": steps, "not_added": list(left_out)}
 
 
 def _parse_law(args: argparse.Namespace) -> LawRequest:
@@ -196,7 +196,7 @@ def format_waterfall(model: IdentifiedModel) -> list[str]:
     if not model.history:
         return ["nothing is added: the model stays as it was fitted"]
     last = model.history[-1]
-    held_out = bool(last.held_out)
+    held_out = bool(last.held_out_logs)
     title = "held-out error" if held_out else "cross-validated error"
     if len(last.joints) > 1:
         title += ", rms over the joints"
@@ -204,10 +204,9 @@ def format_waterfall(model: IdentifiedModel) -> list[str]:
     largest = max(step.error for step in model.history) or 1.0
     for step in model.history:
         name = views.format_step_name(step) if step.effect else "model as fitted"
-        bar = ("~" if step.learned else "#") * round(_WIDTH * step.error / largest)
-        fitted = (
-            f"(fit error {format_percent(step.training_error, DIGITS)}{', learned' * step.learned})"
-        )
+        bar = ("~" if step.is_learned else "#") * round(_WIDTH * step.error / largest)
+        training = format_percent(step.training_error, DIGITS)
+        fitted = f"(fit error {training}{', learned' * step.is_learned})"
         lines.append(f"{name:<30} {format_percent(step.error, DIGITS):>8} {bar}  {fitted}")
     if (parts := model.error_reduction_shares) is not None:
         lines.append(f"{'':<30} ~ learned, not physics")

@@ -241,10 +241,11 @@ def run_estimators(args: argparse.Namespace) -> Json:
         print_result(f"{about.id:<10} {about.title}")
         print_result(f"  law        {about.law}")
         print_result(f"  source     {about.source}")
-        print_result(f"  not        {about.avoid}")
+        print_result(f"  not        {about.limitations}")
         print_result(f"  assumes    {about.motion}")
     return [
-        {"method": a.id} | select_attributes(a, "title law source avoid motion") for a in chosen
+        {"method": a.id} | select_attributes(a, "title law source limitations motion")
+        for a in chosen
     ]
 
 
@@ -256,10 +257,12 @@ def _describe_effect(effect: Effect) -> dict[str, str | list[str]]:
         "equation": effect.equation,
         "parameters": [column.prefix for column in effect.columns],
         "unit": [column.unit_revolute for column in effect.columns],
-        "shapes": [f"{s.name}: {s.meaning}" for f in effect.forms for s in f.free_parameters],
-        "same_as": list(effect.same_as),
+        "nonlinear_parameters": [
+            f"{s.name}: {s.meaning}" for f in effect.forms for s in f.free_parameters
+        ],
+        "equivalent_effects": list(effect.equivalent_effects),
         "signature": effect.signature,
-        "look_alikes": effect.look_alikes,
+        "confounders": effect.confounders,
         "range": effect.range,
         "source": effect.source,
     }

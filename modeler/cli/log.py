@@ -74,11 +74,11 @@ def run_log(args: argparse.Namespace) -> Json:
     noise = estimate_position_noise(inspection.positions)
     bands, marks = build_bands(noise), find_marks(inspection)
     if compiled is not None:
-        sure = merge_suggested_map(inspection.suggested_without_ranges, mapping)
-        ranged = merge_suggested_map(inspection.suggested, mapping)
+        sure = merge_suggested_map(inspection.suggested_map_without_ranges, mapping)
+        ranged = merge_suggested_map(inspection.suggested_map, mapping)
         mapping_fit, _, stands = choose_mapping(
             lambda names: _fit_mapping(compiled, args.log, names, inspection), sure,
-            None if inspection.suggested == inspection.suggested_without_ranges else ranged,
+            None if inspection.suggested_map == inspection.suggested_map_without_ranges else ranged,
         )  # fmt: skip
         if mapping_fit.data_report is not None:
             noise, bands = mapping_fit.data_report.noise, mapping_fit.data_report.bands
@@ -86,11 +86,11 @@ def run_log(args: argparse.Namespace) -> Json:
         if stands:  # it fits as it is: a range alone is no warning
             doubts = [line for line in doubts if line not in inspection.range_warnings]
             inspection = dataclasses.replace(
-                inspection, suggested=inspection.suggested_without_ranges
+                inspection, suggested_map=inspection.suggested_map_without_ranges
             )
         more = [line for line in mapping_fit.lines if not line.endswith(tuple(doubts))]
         doubts = [doubt for doubt in doubts if not any(doubt in line for line in more)] + more
-    noise_lines = [*noise.format_channels(), *bands.chosen_by] if noise is not None else []
+    noise_lines = [*noise.format_channels(), *bands.reasons] if noise is not None else []
     print_lines(_format_inspection(inspection, doubts, noise_lines))
     places = []
     if args.write and compiled is not None:
@@ -110,7 +110,7 @@ def run_log(args: argparse.Namespace) -> Json:
         print_result(f"written: {', '.join(places)}")
     plain = [dataclasses.asdict(mark) for mark in marks]
     return convert_to_plain(
-        inspection.to_json() | {"doubts": doubts, "bands": bands, "marks": plain}
+        inspection.to_json() | {"warnings": doubts, "bands": bands, "marks": plain}
     )
 
 
@@ -119,7 +119,7 @@ def _format_inspection(
 ) -> list[str]:
     lines = [f"{inspection.name}: {inspection.rows} rows"]
     lines += [
-        f"  {stream.name}  {stream.kind}, {stream.rows} messages{', the clock' * stream.clock}"
+        f"  {stream.name}  {stream.kind}, {stream.rows} messages{', the clock' * stream.is_clock}"
         for stream in inspection.streams
     ]
     lines.append(
@@ -134,11 +134,11 @@ def _format_inspection(
     lines += ["", *(line.rstrip() for line in align_columns(rows, (0, 1, 6))), ""]
     lines += [*noise, *(f"note: {note}" for note in inspection.notes)]
     lines += [f"warning: {doubt}" for doubt in doubts] or ["no warnings"]
-    if inspection.suggested:
+    if inspection.suggested_map:
         suggestion_title = (
             "a mapping to start from, a guess: paste it into the robot file, or --map FILE.toml"
         )
-        lines += ["", suggestion_title, "", inspection.suggested.rstrip()]
+        lines += ["", suggestion_title, "", inspection.suggested_map.rstrip()]
     return lines
 
 
@@ -157,8 +157,8 @@ def _fit_mapping(
         *observation.report.logs[0].notes,
         *(f.line for f in findings if not f.is_undetectable),
     ]
-    if verdict is not None and not verdict.usable:
-        lines += [*verdict.doubts, f"a fit of {observation.robot}: {verdict.line}"]
+    if verdict is not None and not verdict.valid:
+        lines += [*verdict.warnings, f"a fit of {observation.robot}: {verdict.line}"]
     elif result.relative_error > THRESHOLDS.max_unremarked_error:
         lines.append(
             f"a fit of {observation.robot} leaves {format_percent(result.relative_error)} of the "
@@ -166,7 +166,7 @@ def _fit_mapping(
         )
     fresh = [line for line in dict.fromkeys(lines) if not line.endswith(inspection.notes)]
     longer = [line for line in fresh if not any(o != line and o.endswith(line) for o in fresh)]
-    usable = verdict is not None and verdict.usable
+    usable = verdict is not None and verdict.valid
     return MappingFit(result.relative_error, tuple(longer), usable, observation.report)
 
 

@@ -64,7 +64,7 @@ def run_excite(args: argparse.Namespace) -> Json:
             )
             lines, extra = (
                 [*separation.format_lines(), *motion.format_lines()[2:]],
-                {"between": separation.to_json()},
+                {"discrimination": separation.to_json()},
             )
         else:
             motion = subject.search_motion(
@@ -129,7 +129,7 @@ def _check_motion(
             "take "
             "another motion, or a smaller --clearance"
         )
-    wrong = [each for each in excess if not (motion.is_measured and "speed at" in each.what)]
+    wrong = [each for each in excess if not (motion.is_measured and "speed at" in each.quantity)]
     if wrong:
         raise DataError(
             f"{args.check}, {wrong[0].format_line()}; limits exceeded: {len(wrong)}; take another "
@@ -137,7 +137,11 @@ def _check_motion(
             "or state other limits: [limits] of the robot file, or --limit"
         )
     exceeded = [each.to_json() for each in excess]
-    return {"robot": subject.robot.name, "clearance": clearance.to_json(near), "exceeded": exceeded}
+    return {
+        "robot": subject.robot.name,
+        "clearance": clearance.to_json(near),
+        "exceeded_limits": exceeded,
+    }
 
 
 def _draw_nearest(
@@ -302,18 +306,20 @@ def _choose_motions(args: argparse.Namespace, subject: motions.Subject) -> Json:
         choice = excitation.choose_motions(rows, args.choose)
     for k, place in enumerate(args.candidates):
         mark = "chosen  " if k in choice.places else "        "
-        print_result(f"{mark}{place}: condition number {choice.alone[k]:.4g} by itself")
+        print_result(f"{mark}{place}: condition number {choice.single_conditions[k]:.4g} by itself")
     print_result(
         f"{len(choice.places)} chosen: condition number {choice.condition:.4g} together, all "
         f"{len(rows)} {choice.whole:.4g}, columns of length one"
     )
     return {
         "robot": subject.robot.name,
-        "chosen": [str(args.candidates[k]) for k in choice.places],
+        "chosen_motions": [str(args.candidates[k]) for k in choice.places],
         "condition_scaled": choice.condition,
-        "condition_scaled_all": choice.whole if math.isfinite(choice.whole) else None,
-        "alone": [value if math.isfinite(value) else None for value in choice.alone],
-        "exhaustive": choice.exhaustive,
+        "condition_scaled_of_all": choice.whole if math.isfinite(choice.whole) else None,
+        "single_conditions": [
+            value if math.isfinite(value) else None for value in choice.single_conditions
+        ],
+        "is_exhaustive": choice.is_exhaustive,
     }
 
 
@@ -346,9 +352,13 @@ def run_simulate(args: argparse.Namespace) -> Json:
     simulation.write_log(Path(args.out), log)
     if args.truth_out is not None:
         simulation.write_truth(Path(args.truth_out), log)
-    drawn_text = f", {len(log.truth.drawn)} parameters drawn" if log.truth.drawn else ""
+    drawn_text = (
+        f", {len(log.truth.random_parameters)} parameters drawn"
+        if log.truth.random_parameters
+        else ""
+    )
     print_result(f"{robot.name}: {len(log.time)} samples of {len(log.joints)} joints{drawn_text}")
-    for effect in log.truth.hidden:
+    for effect in log.truth.hidden_effects:
         where = f" on {effect.joint}" if effect.joint else ""
         values = ", ".join(f"{name} = {value:.4g}" for name, value in effect.values.items())
         print_result(f"hidden: {effect.effect}{where}: {values}")
@@ -366,7 +376,7 @@ def run_simulate(args: argparse.Namespace) -> Json:
         "samples": len(log.time),
         "joints": list(log.joints),
         "parameters": dict(log.truth.parameters),
-        "drawn": list(log.truth.drawn),
-        "hidden": simulation.serialise_hidden_effects(log),
+        "random_parameters": list(log.truth.random_parameters),
+        "hidden_effects": simulation.serialise_hidden_effects(log),
         "range_share": log.range_share,
     }

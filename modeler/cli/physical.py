@@ -89,8 +89,8 @@ def _print_overview(system: formulas.PhysicalSystem, source: str, fitted: bool) 
     return {
         "parameters": {x: system.kinds[x] for x in system.letters},
         "without_effect": list(system.vanishing),
-        "smallest_number": number,
-        "easiest_set": list(easiest),
+        "smallest_count": number,
+        "suggested_set": list(easiest),
     }
 
 
@@ -171,7 +171,7 @@ def _print_values(values: PhysicalValues) -> Json:
                 "value": value if is_identified else None,
                 "sigma": sigma if is_identified else None,
                 "unit": unit,
-                "doubt": doubts.get(letter),
+                "warning": doubts.get(letter),
                 "sensitivity": slopes,
                 "variance_shares": shares,
             }
@@ -194,14 +194,14 @@ def _print_tested(tested: tuple[formulas.KnownAgainstFit, ...]) -> None:
         "more is known than needed; each known parameter against what the others and the fit say:"
     )
     for row in tested:
-        print_result(f"  {row.letter:<8} given {row.given:<10.6g} follows {row.implied:.6g} +- "
-            f"{row.implied_sigma:.2g}, {abs(row.z):.1f} sigma"
-            + ("  contradicts" if row.contradicts else ""))  # fmt: skip
-    wrong = [row for row in tested if row.contradicts]
+        print_result(f"  {row.letter:<8} given {row.known_value:<10.6g} follows "
+            f"{row.implied_value:.6g} +- {row.implied_sigma:.2g}, {abs(row.z):.1f} sigma"
+            + ("  contradicts" if row.is_contradictory else ""))  # fmt: skip
+    wrong = [row for row in tested if row.is_contradictory]
     if wrong:
         contradictions = "; ".join(
-            f"{r.letter} = {r.given:g} given, {r.implied:.6g} +- {r.implied_sigma:.2g} follows "
-            f"({abs(r.z):.1f} sigma)"
+            f"{r.letter} = {r.known_value:g} given, {r.implied_value:.6g} +- "
+            f"{r.implied_sigma:.2g} follows ({abs(r.z):.1f} sigma)"
             for r in sorted(wrong, key=lambda r: -abs(r.z))
         )
         raise DataError(
@@ -215,8 +215,8 @@ def _print_sets(subject: Physical, size: int | None, cad: formulas.KnownValues |
     with show_progress("counting") as tell:
         known_sets = subject.find_known_sets(size, tell)
     print_result(
-        f"{system.robot}: {known_sets.count} of {known_sets.possible} sets of {known_sets.size} "
-        "known parameters "
+        f"{system.robot}: {known_sets.count} of {known_sets.candidate_count} sets of "
+        f"{known_sets.size} known parameters "
         f"suffice; the smallest sets have {known_sets.smallest}"
     )
     for key, count in known_sets.classes.items():
@@ -224,9 +224,10 @@ def _print_sets(subject: Physical, size: int | None, cad: formulas.KnownValues |
             f"  {key[0]} masses and lengths, {key[1]} mass centres, {key[2]} inertias: {count}"
         )
     ratings = subject.rank_sets(known_sets, cad) if known_sets.count and cad is not None else ()
-    if known_sets.easiest:
+    if known_sets.easiest_sets:
         print_result(
-            f"the {len(known_sets.easiest)} with the fewest inertias, then the fewest mass centres"
+            f"the {len(known_sets.easiest_sets)} with the fewest inertias, then the fewest mass "
+            "centres"
             + (
                 ", the least error first (1 % in all that is measured gives, median and worst):"
                 if ratings
@@ -234,25 +235,26 @@ def _print_sets(subject: Physical, size: int | None, cad: formulas.KnownValues |
             )
         )
         lines = [
-            f"  {','.join(r.known)}  {format_percent(r.middle / 100)}, {r.letter} "
-            f"{format_percent(r.worst / 100)}"
+            f"  {','.join(r.known_parameters)}  {format_percent(r.median_error / 100)}, {r.letter} "
+            f"{format_percent(r.largest_error / 100)}"
             for r in ratings
         ]
-        lines = lines or [f"  {','.join(members)}" for members in known_sets.easiest]
+        lines = lines or [f"  {','.join(members)}" for members in known_sets.easiest_sets]
         print_lines(lines[: THRESHOLDS.listed_sets])
-        if len(known_sets.easiest) > THRESHOLDS.listed_sets:
+        if len(known_sets.easiest_sets) > THRESHOLDS.listed_sets:
             print_result(
-                f"  and {len(known_sets.easiest) - THRESHOLDS.listed_sets} more (all with --json)"
+                f"  and {len(known_sets.easiest_sets) - THRESHOLDS.listed_sets} more "
+                "(all with --json)"
             )
     return {
-        **select_attributes(known_sets, "size smallest possible count"),
+        **select_attributes(known_sets, "size smallest candidate_count count"),
         "classes": [
             {"masses_and_lengths": k[0], "centres": k[1], "inertias": k[2], "count": n}
             for k, n in known_sets.classes.items()
         ],
         "contains": dict(known_sets.contains),
-        "easiest": [list(members) for members in known_sets.easiest],
-        "rated": [vars(r) | {"known": list(r.known)} for r in ratings],
+        "easiest_sets": [list(members) for members in known_sets.easiest_sets],
+        "ratings": [vars(r) | {"known_parameters": list(r.known_parameters)} for r in ratings],
     }
 
 
@@ -262,18 +264,24 @@ def _print_cad_comparison(subject: Physical, cad: formulas.KnownValues) -> Json:
         f"{'quantity':<8} {'identified':>12} {'sigma':>9} {'CAD':>12} {'z':>8}  depends on"
     )
     for row in comparison.rows:
-        mark = "suspicious" if row.suspicious else ""
-        print_result(f"{row.name:<8} {row.identified:>12.5g} {row.sigma:>9.2g} {row.cad:>12.5g} "
-            f"{row.z:>8.1f}  {' '.join(row.letters)}  {mark}".rstrip())  # fmt: skip
-    print_lines(f"{name:<8} not compared: {why}" for name, why in comparison.left_out.items())
+        mark = "suspicious" if row.is_suspicious else ""
+        numbers = f"{row.identified_value:>12.5g} {row.sigma:>9.2g} {row.cad_value:>12.5g}"
+        line = f"{row.name:<8} {numbers} {row.z:>8.1f}  {' '.join(row.letters)}  {mark}"
+        print_result(line.rstrip())
+    print_lines(f"{name:<8} not compared: {why}" for name, why in comparison.not_compared.items())
     _print_explained(comparison)
     return {
         "rows": [vars(row) | {"letters": list(row.letters)} for row in comparison.rows],
         **select_attributes(comparison, "limit chi_squared"),
-        "left_out": dict(comparison.left_out),
-        "implicated": list(comparison.implicated),
+        "not_compared": dict(comparison.not_compared),
+        "implicated_parameters": list(comparison.implicated_parameters),
         "explanations": [
-            {**vars(e), "letters": list(e.letters), "cad": list(e.cad), "fitted": list(e.fitted)}
+            {
+                **vars(e),
+                "letters": list(e.letters),
+                "cad_values": list(e.cad_values),
+                "fitted_values": list(e.fitted_values),
+            }
             for e in comparison.explanations
         ],
     }
@@ -290,15 +298,15 @@ def _print_explained(comparison: formulas.CadComparison) -> None:
         f"{len(comparison.suspicious)} of {len(comparison.rows)} do not agree with CAD (|z| above "
         f"{comparison.limit:.2f}: 1 false alarm in 100 tables)"
     )
-    if not any(e.enough for e in comparison.explanations):
+    if not any(e.is_sufficient for e in comparison.explanations):
         print_result(
             "no change of one or two CAD entries alone makes all agree; entries of suspicious "
-            f"quantities only: {', '.join(comparison.implicated) or 'none'}"
+            f"quantities only: {', '.join(comparison.implicated_parameters) or 'none'}"
         )
     for e in comparison.explanations:
         changes = " and ".join(
             f"{x} = {new:.5g} instead of {old:.5g}"
-            for x, old, new in zip(e.letters, e.cad, e.fitted, strict=True)
+            for x, old, new in zip(e.letters, e.cad_values, e.fitted_values, strict=True)
         )
-        print_result(f"{'all agree' if e.enough else 'most is explained'} if {changes} "
+        print_result(f"{'all agree' if e.is_sufficient else 'most is explained'} if {changes} "
             f"(chi2 {e.chi_squared:.4g} instead of {comparison.chi_squared:.4g})")  # fmt: skip

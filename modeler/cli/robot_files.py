@@ -172,18 +172,16 @@ def run_home(args: argparse.Namespace) -> Json:
         print_lines(format_home_lines(home), "  ")
     return {
         "robot": robot.name,
-        "chosen": modes.modes[chosen].letter,
-        "of_the_file": None
-        if modes.stated_index is None
-        else modes.modes[modes.stated_index].letter,
+        "chosen_mode": modes.modes[chosen].letter,
+        "as_given": None if modes.stated_index is None else modes.modes[modes.stated_index].letter,
         "modes": [
             {
                 "letter": mode.letter,
                 "home": express_as_home(modes.linkage, mode.posture),
                 "singular_value": mode.singularity_distance,
-                "within_limits": mode.is_within_limits,
-                "copies": mode.copy_count,
-                "away": mode.distance_from_stated,
+                "is_within_limits": mode.is_within_limits,
+                "copy_count": mode.copy_count,
+                "distance": mode.distance_from_stated,
             }
             for mode in modes.modes
         ],
@@ -197,7 +195,9 @@ def _draw_modes(modes: "HomeModes", kind: str) -> bytes:
     robot = modes.linkage.robot
     skeleton = build_skeleton(robot)
     size = estimate_robot_size(skeleton, modes.modes[0].posture)
-    postures = [Posture(mode.posture, size, closed=True, held=True) for mode in modes.modes]
+    postures = [
+        Posture(mode.posture, size, is_closed=True, is_as_stated=True) for mode in modes.modes
+    ]
     titles = [
         mode.letter + (" (as in the file)" if k == modes.stated_index else "")
         for k, mode in enumerate(modes.modes)
@@ -274,7 +274,7 @@ def run_export(args: argparse.Namespace) -> Json:
     first, *lines = exported.summary().splitlines()
     print_result(f"{first}, written to {args.out}")
     changed = exported.table("changed")
-    if exported.like and len(changed):
+    if exported.template and len(changed):
         same = len(exported.values) - len(changed)
         print_lines(
             [

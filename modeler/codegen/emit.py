@@ -71,7 +71,7 @@ def build_module_spec(model: SymbolicModel, base: BaseParameters) -> ModuleSpec:
     prefix = layout.make_prefix(robot.name)
     if closure is not None:
         closing = manifest.ClosureSpec(
-            given=closure.actuated,
+            actuated=closure.actuated,
             home=closure.home,
             variables=tuple(joint.name for joint in robot.free_joints),
             units=tuple(joint.unit for joint in robot.free_joints),

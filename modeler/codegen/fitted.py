@@ -145,8 +145,8 @@ def format_fitted_texts(
     """Returns finished strings for the templates of the unit."""
     line = fitted.verdict or "one that nobody has judged"
     verdict = f"The fit of this model is {line[:1].lower()}{line[1:]}"
-    doubts = [f"Doubt: {doubt}" for doubt in fitted.doubts if doubt not in fitted.verdict]
-    warning = "" if fitted.usable else "WARNING. "
+    doubts = [f"Doubt: {doubt}" for doubt in fitted.warnings if doubt not in fitted.verdict]
+    warning = "" if fitted.valid else "WARNING. "
     # Lines of the C table: the value, which it is, its unit, its uncertainty.
     places = layout.name_enumerators(spec.prefix, "beta", [base.name for base in spec.base])
     lines, literal = list[str](), OF_PRECISION[spec.precision].format_literal
@@ -159,7 +159,7 @@ def format_fitted_texts(
         lines.append(f"    {literal(parameter.value):>24}{comma} /* {about} */")
     return {
         "widths": widths,
-        "remarks": layout.format_comment_lines([f"{warning}{verdict}", *doubts, *fitted.remarks]),
+        "remarks": layout.format_comment_lines([f"{warning}{verdict}", *doubts, *fitted.notes]),
         "effort": " or ".join(dict.fromkeys(joint.effort_unit for joint in spec.joints)),
         "lines": lines,
         "gains": layout.wrap_names([literal(gain) for gain in fitted.gains]),

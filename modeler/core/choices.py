@@ -122,7 +122,7 @@ class EstimatorInfo:
         title: as in "weighted least squares".
         law: its equation.
         source: where it comes from.
-        avoid: when not to use it.
+        limitations: when not to use it.
         motion: what it assumes of the noise of the measured motion.
     """
 
@@ -130,7 +130,7 @@ class EstimatorInfo:
     title: str
     law: str
     source: str
-    avoid: str
+    limitations: str
     motion: str
 
     @property

@@ -94,7 +94,7 @@ class ClosureSpec:
 
     variables: tuple[str, ...]  # rows whose variables are u, in order
     units: tuple[str, ...]  # "rad" | "m"
-    given: tuple[int, ...]  # places in u of q
+    actuated: tuple[int, ...]  # places in u of q
     platform: tuple[int, ...]  # places in u of x, the platform's coordinates; empty without one
     home: tuple[float, ...]  # the closed posture u from which loops are closed
     carrier: str = ""  # row of the platform's link
@@ -214,10 +214,10 @@ class FittedSpec(ShortRepr):
     """The values that stand in the C of a fitted model, and the functions that have them."""
 
     method: str  # id of the estimator
-    usable: bool | None  # None: nobody has judged the fit
+    valid: bool | None  # None: nobody has judged the fit
     verdict: str
-    doubts: tuple[str, ...]
-    remarks: tuple[str, ...]  # what a reader of the values must know besides
+    warnings: tuple[str, ...]
+    notes: tuple[str, ...]  # what a reader of the values must know besides
     parameters: tuple[FittedParameter, ...]  # in the order of `base`
     gains: tuple[float, ...] = ()  # joint torque per drive unit; empty unless all are known
     widths: tuple[str, ...] = ()  # macros, one per joint whose friction leaps

@@ -94,7 +94,7 @@ def resolve_effect(model: IdentifiedModel, name: str, joint: str | None) -> Effe
     jointed = effect.acts in JOINTED
     if joint is not None:
         _check_joint(model.spec, effect, joint)
-    if effect.several or not jointed:  # there may be several orders of ripples
+    if effect.is_repeatable or not jointed:  # there may be several orders of ripples
         return effect
     present = {p.joint for p in model.spec.standard if p.effect == effect.id}
     motors = {joint.name for joint in model.spec.joints if joint.actuated}
@@ -107,7 +107,7 @@ def resolve_effect(model: IdentifiedModel, name: str, joint: str | None) -> Effe
 def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
     """Effects act on joints with a motor, on joints that loops leave over, or on links."""
     jointed, passive = effect.acts in JOINTED, list(find_passive_joints(spec))
-    if not jointed and (effect.acts is not EffectTarget.LINK or effect.last_link):
+    if not jointed and (effect.acts is not EffectTarget.LINK or effect.is_on_last_link):
         raise DataError(
             f"--joint {joint}: {effect.id} acts on the whole robot, not on one joint; leave "
             "--joint out"
@@ -192,7 +192,7 @@ def add_effect(
     pick = _select_candidate(before, effect, joint)
     after, score = _score_addition(before, pick)
     moved = _compute_parameter_shifts(model, after.model) if effect.is_learned else {}
-    return after.complete_step(moved=moved, doubt=_explain_weak_evidence(pick, score))
+    return after.complete_step(shifts_in_sigmas=moved, warning=_explain_weak_evidence(pick, score))
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")
@@ -246,7 +246,7 @@ def add_learned_law(
     doubt = (
         f"it moves {join_names(far)} of their sigmas: the law says what these said" if far else ""
     )
-    return after.complete_step(moved=moved, doubt=doubt)
+    return after.complete_step(shifts_in_sigmas=moved, warning=doubt)
 
 
 def add_learned_laws(
@@ -302,10 +302,10 @@ def add_findings(
     value above its sigma once everything is in is taken out again. A reason is one line that names
     the effect and its joint.
     """
-    doubted = [f for f in findings if f.doubt]
-    left = [_describe_omission(f.effect, f.joint, f"weak evidence: {f.doubt}") for f in doubted]
+    doubted = [f for f in findings if f.warning]
+    left = [_describe_omission(f.effect, f.joint, f"weak evidence: {f.warning}") for f in doubted]
     best = _FittedModel(model, build_rows(compiled, logs, model.processing))
-    best, rest = _add_drive_gains(best, [f for f in findings if not f.doubt])
+    best, rest = _add_drive_gains(best, [f for f in findings if not f.warning])
     for finding in rest:
         try:
             resolve_effect(best.model, finding.effect, finding.joint)
@@ -350,7 +350,7 @@ def _add_drive_gains(
     if not scoring.score_change(first, last).is_better:
         return before, findings
     steps = after.model.history
-    done = [replace(step, falls=True) for step in steps[-len(gains) :]]
+    done = [replace(step, is_improvement=True) for step in steps[-len(gains) :]]
     after = after.replace_history((*steps[: -len(gains)], *done))
     return after, [f for f in findings if f not in gains]
 
@@ -418,7 +418,7 @@ def _score_addition(
     if pick.visible_share < THRESHOLDS.min_addable_share:  # the model would give it its values
         raise DataError(
             f"{effect.id}: cannot be distinguished from what the model has on these logs "
-            f"({format_percent(pick.visible_share)} of it is left); {effect.look_alikes}"
+            f"({format_percent(pick.visible_share)} of it is left); {effect.confounders}"
         )
     after, refitted = _fit_with_candidate(before, pick), effect.acts is not EffectTarget.LINK
     first, last = (one.compute_held_out_residuals(refitted) for one in (before, after))
@@ -431,10 +431,10 @@ def _score_addition(
         _build_history_step(after, score, 1),
         effect=effect.id,
         joint=pick.candidate.joint,
-        shapes=shapes,
+        nonlinear_parameters=shapes,
         joints=score.errors,
-        changed=score.changed_joints,
-        falls=score.is_better,
+        changed_joints=score.changed_joints,
+        is_improvement=score.is_better,
     )
     return after.replace_history((*history, step)), score
 
@@ -450,7 +450,7 @@ def _build_history_step(fitted: _FittedModel, score: scoring.Score, side: int) -
         {},
         error=scoring.compute_rms_error(errors.values()),
         training_error=scoring.compute_rms_error(scoring.compute_errors(left).values()),
-        held_out=tuple(log.name for log in rows.logs.held_out),
+        held_out_logs=tuple(log.name for log in rows.logs.held_out),
         robot_text=model.robot_text,
         delay=model.processing.delay,
         joints={name: (error, error) for name, error in errors.items()},

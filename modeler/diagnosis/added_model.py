@@ -74,8 +74,8 @@ def add_nonlinear_uncertainty(
         model = _widen_covariance(model, along, effect_columns)
         history[i] = replace(
             step,
-            shape_sigmas=along.compute_nonlinear_deviations(),
-            shape_intervals=along.compute_nonlinear_intervals(),
+            nonlinear_sigmas=along.compute_nonlinear_deviations(),
+            nonlinear_intervals=along.compute_nonlinear_intervals(),
         )
     return replace(model, history=tuple(history))
 
@@ -88,14 +88,16 @@ def read_catalogue(model: IdentifiedModel) -> tuple[Effect, ...]:
 def _rebuild_candidate(model: IdentifiedModel, step: Addition) -> Candidate | None:
     """The effect of a step, if it has shapes on a joint."""
     effect = find_effect(step.effect, read_catalogue(model))
-    if effect is None or effect.acts is not EffectTarget.JOINT or not step.shapes:
+    if effect is None or effect.acts is not EffectTarget.JOINT or not step.nonlinear_parameters:
         return None
     choices = [({shape.name for shape in f.nonlinear_parameters}, f) for f in effect.forms]
-    forms = [form for shapes, form in choices if shapes == set(step.shapes)]
+    forms = [form for shapes, form in choices if shapes == set(step.nonlinear_parameters)]
     names = [joint.name for joint in model.spec.joints]
     if not forms or step.joint not in names:
         return None
-    return Candidate(effect, forms[0], step.joint, names.index(step.joint), dict(step.shapes))
+    return Candidate(
+        effect, forms[0], step.joint, names.index(step.joint), dict(step.nonlinear_parameters)
+    )
 
 
 def _find_effect_columns(model: IdentifiedModel, state: State, pick: Candidate) -> list[int]:
@@ -282,20 +284,20 @@ def describe_last_addition(model: IdentifiedModel) -> list[str]:
         f"{p.name} = {p.value:.5g}{format_spread(p.value, p.sigma or 0.0, p.interval)} {p.unit}"
         for p in _find_parameters(model, last)
     ]
-    if lines and last.shapes:
-        units, sigmas = _format_nonlinear_units(model, last), last.shape_sigmas
-        ends = last.shape_intervals
+    if lines and last.nonlinear_parameters:
+        units, sigmas = _format_nonlinear_units(model, last), last.nonlinear_sigmas
+        ends = last.nonlinear_intervals
         texts = [
             f"{k} = {v:.4g}{format_spread(v, sigmas.get(k, 0.0), ends.get(k))}{units.get(k, '')}"
-            for k, v in last.shapes.items()
+            for k, v in last.nonlinear_parameters.items()
         ]
         lines.append("with " + ", ".join(texts))
-    if last.moved:
-        order = sorted(last.moved, key=lambda name: -last.moved[name])
+    if last.shifts_in_sigmas:
+        order = sorted(last.shifts_in_sigmas, key=lambda name: -last.shifts_in_sigmas[name])
         count = THRESHOLDS.max_listed_shifts
-        shifts = [f"{name} {last.moved[name]:.2g}" for name in order[:count]]
+        shifts = [f"{name} {last.shifts_in_sigmas[name]:.2g}" for name in order[:count]]
         if len(order) > count:
-            shifts.append(f"all others less than {last.moved[order[count - 1]]:.2g}")
+            shifts.append(f"all others less than {last.shifts_in_sigmas[order[count - 1]]:.2g}")
         lines.append(f"moved by it, in their sigmas: {', '.join(shifts)}")
     return lines
 
@@ -339,7 +341,7 @@ def describe_additions(model: IdentifiedModel, since: int = -1) -> list[str]:
         name = f"{effect.id}, {format_location(step.joint)}"
         usual = effect.forms[0]
         shapes = {shape.name for shape in usual.nonlinear_parameters}
-        if "T" in usual.names and shapes != set(step.shapes):
+        if "T" in usual.names and shapes != set(step.nonlinear_parameters):
             lines.append(
                 f"{name}: the logs have no column temperature{step.joint} or temperature, so the "
                 "time since their start stands for it; log it to know more"
@@ -349,12 +351,12 @@ def describe_additions(model: IdentifiedModel, since: int = -1) -> list[str]:
 
 
 def _describe_error_change(name: str, step: Addition) -> str:
-    if step.falls:
-        doubt = f"; the evidence that it is missing is weak: {step.doubt}" if step.doubt else ""
-        kind = "held-out" if step.held_out else "cross-validated"
-        changes = format_error_changes(step.joints, step.changed)
+    if step.is_improvement:
+        doubt = f"; the evidence that it is missing is weak: {step.warning}" if step.warning else ""
+        kind = "held-out" if step.held_out_logs else "cross-validated"
+        changes = format_error_changes(step.joints, step.changed_joints)
         return f"{name}: the {kind} error falls: {changes}{doubt}"
-    why = explain_no_improvement(step.joints, step.changed)
+    why = explain_no_improvement(step.joints, step.changed_joints)
     return f"{name}: {why}; `modeler add MODEL undo` takes the effect out again"
 
 

@@ -171,7 +171,7 @@ def find_passive_joints(spec: ModuleSpec) -> dict[str, int]:
     """
     if spec.closure is None:
         return {joint.name: j for j, joint in enumerate(spec.joints) if not joint.actuated}
-    driven = {*spec.closure.given, *spec.closure.platform}
+    driven = {*spec.closure.actuated, *spec.closure.platform}
     return {name: i for i, name in enumerate(spec.closure.variables) if i not in driven}
 
 
@@ -207,12 +207,12 @@ def list_candidates(
     """
     results: list[Candidate] = []
     for effect in known.catalogue:
-        if effect.several:
+        if effect.is_repeatable:
             continue
         if effect.acts in (EffectTarget.JOINT, EffectTarget.POSITION):
             for j, joint in enumerate(spec.joints):
                 missing = joint.actuated and (effect.id, joint.name) not in present
-                turning = joint.unit == "rad" or not effect.turns
+                turning = joint.unit == "rad" or not effect.is_rotary_only
                 if missing and turning and _is_representative(effect, joint.name, known, allowed):
                     warm = has_temperature.get(joint.name, False)
                     form = next((f for f in effect.forms if warm or "T" not in f.names), None)
@@ -243,7 +243,7 @@ def _is_representative(
     for other in known.catalogue:
         if other is effect:
             return True
-        if other.id in effect.same_as and allowed(other.id, joint):
+        if other.id in effect.equivalent_effects and allowed(other.id, joint):
             return False
     return False
 
@@ -384,7 +384,7 @@ def evaluate_columns(candidate: Candidate, signals: Signals, window: slice = EVE
         return columns[:, None, :] * row[:, :, None]
     if acts is EffectTarget.POSITION:
         dq = evaluate_equations([candidate], signals)
-        whole = candidate.effect.whole_axis
+        whole = candidate.effect.acts_on_whole_axis
         return signals.compute_displacement_torque(candidate.index, dq, whole, window)
     columns = evaluate_equations([candidate], signals, window)
     result = np.zeros((len(columns), signals.q.shape[1], columns.shape[1]))
@@ -512,7 +512,7 @@ class Rows(ShortRepr):
     def _build_stacked(self, candidates: Sequence[Candidate]) -> Columns:
         """Columns of candidates of one effect on its joint, beside each other."""
         first, signals = candidates[0], self.signals
-        j, whole = first.index, first.effect.whole_axis
+        j, whole = first.index, first.effect.acts_on_whole_axis
         if first.is_local and first.form.internal_state is None:
             return self._filter_joint(j, lambda i, w: evaluate_equations(candidates, signals[i], w))
         values = [evaluate_equations(candidates, s) for s in signals]

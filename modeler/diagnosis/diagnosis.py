@@ -205,7 +205,7 @@ def _describe_gravity_confounders(
     """A line on joints where free inertias stand in for a spring that balances gravity."""
     start, prior = search.start, search.start.data.prior
     bodies = prior is not None and prior.has_bodies
-    if diagnosis.contradicted or start.data.fixed_parameters is not None or bodies:
+    if diagnosis.has_contradictions or start.data.fixed_parameters is not None or bodies:
         return []
     catalogue = start.data.stated_effects.catalogue
     balancing = next((e for e in catalogue if Requirement.GRAVITY in e.needs), None)

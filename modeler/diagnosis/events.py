@@ -253,7 +253,7 @@ def _is_ringing(finding: Finding) -> bool:
 
 def _find_impact_effects(search: Search) -> list[Effect]:
     """Effects with impacts; one at most."""
-    return [e for e in search.catalogue if e.knocks][:1]
+    return [e for e in search.catalogue if e.has_impacts][:1]
 
 
 def _detect_contact(
@@ -314,7 +314,7 @@ def _format_burst_ratio(ratio: float) -> str:
 
 def _collect_backlash_columns(search: Search) -> dict[int, ScoredCandidate]:
     """What the column of play explains, by joint."""
-    return {j.candidate.index: j for j in search.last.ranked if j.candidate.effect.knocks}
+    return {j.candidate.index: j for j in search.last.ranked if j.candidate.effect.has_impacts}
 
 
 def _detect_faint_backlash(search: Search, least: float, knocks: bool) -> Finding | None:
@@ -365,5 +365,5 @@ def _score_backlash(
         ends = score.whole.before, score.whole.after
         text = f"{play.evidence}; error {' -> '.join(format_error_pair(*ends))}"
         return replace(play, error_before=ends[0], error_after=ends[1], evidence=text)
-    before, doubt = errors.get(str(play.joint), math.nan), play.objection or _NO_FALL
-    return replace(play, error_before=before, objection=doubt)
+    before, doubt = errors.get(str(play.joint), math.nan), play.caveat or _NO_FALL
+    return replace(play, error_before=before, caveat=doubt)

@@ -228,7 +228,7 @@ def list_factors(
             read = form.names
             more = not read <= _SPEEDS or form.internal_state is not None
             loops = spec.closure is not None and more
-            if loops or (factor.turns and not scale.angular) or ("T" in read and not warm):
+            if loops or (factor.is_rotary_only and not scale.angular) or ("T" in read and not warm):
                 continue
             shapes = form.nonlinear_parameters
             grids = [[scale_entry(scale, s, x) for x in s.grid] or waves for s in shapes]

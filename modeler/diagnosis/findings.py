@@ -233,7 +233,7 @@ class BandSearch(ShortRepr):
     @property
     def named_steps(self) -> tuple[SearchStep, ...]:
         """Returns the steps whose effects are named."""
-        named = {(f.effect, f.joint) for f in self.findings if not f.doubt}
+        named = {(f.effect, f.joint) for f in self.findings if not f.warning}
         return tuple(step for step in self.search.steps if step.candidate.key in named)
 
 
@@ -329,7 +329,7 @@ def assemble_diagnosis(
     joints = _summarise_joints(search, end, (first.held_out_residuals[0], residuals), first.share)
     every = [_add_event_caveat(finding, joints) for finding in every]
     if changed_parameters:
-        every = [replace(finding, doubt=NOT_JUDGED) for finding in every]
+        every = [replace(finding, warning=NOT_JUDGED) for finding in every]
     every.sort(key=lambda finding: finding.status == "possible")
     effects, refinements = (tuple(f for f in every if f.is_refinement is r) for r in (False, True))
     diagnosis = result.Diagnosis(
@@ -339,15 +339,15 @@ def assemble_diagnosis(
         else decide_verdict(effects, joints, search),
         effects=effects,
         refinements=refinements,
-        rivals=tuple((*rival.key, rival.variance_reduction) for rival in search.ranked[:8]),
-        blind_spots=list_undetectable_effects(search),
+        alternatives=tuple((*rival.key, rival.variance_reduction) for rival in search.ranked[:8]),
+        undetectable=list_undetectable_effects(search),
         joints=joints,
-        unmoved=tuple(j.name for j in model.spec.joints if j.name not in joints),
-        held_out=other.observation.logs if other else (),
+        unmoved_joints=tuple(j.name for j in model.spec.joints if j.name not in joints),
+        held_out_logs=other.observation.logs if other else (),
         sentences=(),
         fit_band=model.processing.parallel_cutoff or 0.0,
-        data=collect_warnings(model, search, other, faults, window),
-        contradicted=contradicted,
+        data_warnings=collect_warnings(model, search, other, faults, window),
+        has_contradictions=contradicted,
         machine_changed=tuple(changed_parameters),
         window=window,
         search=search,
@@ -359,9 +359,9 @@ def _deduplicate_findings(findings: Sequence[result.Finding]) -> list[result.Fin
     """What two bands say of an effect: as it is named, if it is, or as it was seen first."""
     unique: dict[tuple[object, ...], result.Finding] = {}
     for k, finding in enumerate(findings):
-        several = finding.pick is not None and finding.pick.candidate.effect.several
+        several = finding.pick is not None and finding.pick.candidate.effect.is_repeatable
         key = (finding.effect, finding.joint, k if several else 0)
-        if key not in unique or (unique[key].doubt and not finding.doubt):
+        if key not in unique or (unique[key].warning and not finding.warning):
             unique[key] = finding
     return list(unique.values())
 
@@ -376,7 +376,7 @@ def _evaluate_in_table_band(
     first, updated_findings = bands[0], list(every)
     state, residuals = first.search.end, first.held_out_residuals[-1]
     for i, finding in enumerate(every):
-        if finding.doubt or finding.pick is None or finding in first.findings:
+        if finding.warning or finding.pick is None or finding in first.findings:
             continue
         pick, wider = finding.pick.candidate, bands[-1].search
         (step,) = (step for step in wider.steps if step.candidate is pick)
@@ -392,7 +392,7 @@ def _evaluate_in_table_band(
             why = f"the error falls only up to {get_cutoff(wider.start.data):.2g} Hz"
         text = describe_evidence(step, *ends)
         updated_findings[i] = replace(
-            finding, error_before=ends[0], error_after=ends[1], doubt=why, evidence=text
+            finding, error_before=ends[0], error_after=ends[1], warning=why, evidence=text
         )
     return updated_findings, state, residuals
 
@@ -401,13 +401,9 @@ def _add_event_caveat(
     finding: result.Finding, joints: Mapping[str, result.JointState]
 ) -> result.Finding:
     """An event, where something acts all the time: what stood out of it may be none."""
-    if (
-        not finding.is_event
-        or finding.objection
-        or not any(j.is_unexplained for j in joints.values())
-    ):
+    if not finding.is_event or finding.caveat or not any(j.is_unexplained for j in joints.values()):
         return finding
-    return replace(finding, objection="something unexplained acts all the time")
+    return replace(finding, caveat="something unexplained acts all the time")
 
 
 def _build_finding(
@@ -431,7 +427,9 @@ def _build_finding(
         deviations, visible = compute_gain_deviations(end, k), compute_gain_visibility(end, k)
     estimate = estimate_effect(end, k, pick, values, deviations)
     rivals, refines = [tie.candidate for tie in step.equivalents], _is_refinement(search, k)
-    same = [(other, pick.joint) for other in pick.effect.same_as]  # no data distinguish these
+    same = [
+        (other, pick.joint) for other in pick.effect.equivalent_effects
+    ]  # no data distinguish these
     same = [key for key in same if not is_ruled_out(*key, search.without)]
     against, errors = find_caveat(end, pick, estimate.parameters), (change.before, change.after)
     doubt = result.explain_weak_evidence(
@@ -446,12 +444,12 @@ def _build_finding(
         estimate.units,
         equivalents=tuple(dict.fromkeys([*(rival.key for rival in rivals), *same])),
         evidence=describe_evidence(step, *errors),
-        closure=closed,
+        explained_fraction=closed,
         is_refinement=refines,
-        objection=against,
+        caveat=against,
         intervals=estimate.intervals,
         cross_checks=checks,
-        doubt=doubt,
+        warning=doubt,
         is_first=first,
         pick=result.FittedCandidate(pick, values, end, visible),
     )
@@ -501,9 +499,9 @@ def _summarise_joints(
             unit=joint.effort_unit,
             rms_before=math.sqrt(before),
             rms_after=math.sqrt(after),
-            explained=1.0 - share,
-            systematic=share * shares[j],
-            noise=share * (1.0 - shares[j]),
+            explained_share=1.0 - share,
+            systematic_share=share * shares[j],
+            noise_share=share * (1.0 - shares[j]),
         )
     return states
 
@@ -541,10 +539,10 @@ def list_undetectable_effects(search: Search) -> tuple[result.Key, ...]:
         for joint in search.spec.joints
         if joint.actuated
         for effect in search.catalogue
-        if effect.whole_axis and (effect.id, joint.name) not in shown_keys
+        if effect.acts_on_whole_axis and (effect.id, joint.name) not in shown_keys
     ]
     if search.start.data.fixed_parameters is None:
-        hidden += [(effect.id, None) for effect in search.catalogue if effect.last_link]
+        hidden += [(effect.id, None) for effect in search.catalogue if effect.is_on_last_link]
     hidden += _list_unmoved(search.start)
     shown = [key for key in hidden if not is_ruled_out(*key, search.without)]
     named_keys = {pick.key for step in search.steps for pick in (step.score, *step.equivalents)}

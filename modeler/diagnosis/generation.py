@@ -224,8 +224,10 @@ def list_ripple_candidates(
             # the other name of an effect that is ruled out counts too
             every = [e for e in catalogue if e.orders and allowed(e.id, joint.name)]
             likely = [e for e in every if e.orders and e.orders[0] <= order < e.orders[1]]
-            named = {other for effect in likely for other in effect.same_as}
-            others = (e for e in every if e not in likely and not named & {e.id, *e.same_as})
+            named = {other for effect in likely for other in effect.equivalent_effects}
+            others = (
+                e for e in every if e not in likely and not named & {e.id, *e.equivalent_effects}
+            )
             for effect in (*likely, *others):
                 (shape,) = effect.forms[0].nonlinear_parameters
                 candidates += [  # teeth and poles are counted: a whole number of waves
@@ -352,8 +354,8 @@ def generate_candidates(
         results += list_ripple_candidates(state, is_allowed, waves)
     if changed:
         results += list_load_candidates(state)
-    single = [pick for pick in state.picks if not pick.effect.several]
-    taken = {(x, p.joint) for p in single for x in (p.effect.id, *p.effect.same_as)}
+    single = [pick for pick in state.picks if not pick.effect.is_repeatable]
+    taken = {(x, p.joint) for p in single for x in (p.effect.id, *p.effect.equivalent_effects)}
     results = [c for c in results if only in (None, c.effect.id) and is_allowed(*c.key)]
     return [c for c in results if c.key not in taken]
 
@@ -375,9 +377,9 @@ def list_load_candidates(state: State) -> list[Candidate]:
     carrier = spec.closure.carrier if spec.closure is not None else ""
     last = carrier or links[-1]
     return [
-        Candidate(effect, effect.forms[0], None if effect.last_link else link, place, {})
+        Candidate(effect, effect.forms[0], None if effect.is_on_last_link else link, place, {})
         for effect in state.data.stated_effects.catalogue
         if effect.acts is EffectTarget.LINK
         for place, link in enumerate(links)
-        if effect.last_link is (link == last)
+        if effect.is_on_last_link is (link == last)
     ]

@@ -120,7 +120,7 @@ def _check_computed_torque(state: State) -> list[str]:
 def _is_model_difference(effect: Effect) -> bool:
     """True for what the model that torques were computed by may have otherwise."""
     targets = (EffectTarget.TORQUE, EffectTarget.GRAVITY, EffectTarget.LINK)
-    return effect.acts in targets or effect.whole_axis or effect.id == "offset"
+    return effect.acts in targets or effect.acts_on_whole_axis or effect.id == "offset"
 
 
 def exclude_friction(data: SearchData, beta: np.ndarray) -> StatedEffects | None:
@@ -313,12 +313,12 @@ def describe_undetectable(diagnosis: Diagnosis) -> list[tuple[str, str]]:
     A joint of which no row can be used stands there once, for all its effects.
     """
     reasons = {}
-    for name, joint in diagnosis.blind_spots:
+    for name, joint in diagnosis.undetectable:
         effect = _find_effect(name, diagnosis)
-        if joint is not None and joint in diagnosis.unmoved:
+        if joint is not None and joint in diagnosis.unmoved_joints:
             reasons[f"any effect of joint {joint}"] = "no row of it can be used; move it"
         else:
-            reasons[f"{name}@{joint}" if joint else name] = effect.look_alikes
+            reasons[f"{name}@{joint}" if joint else name] = effect.confounders
     return list(reasons.items())
 
 
@@ -349,19 +349,20 @@ def add_sentences(diagnosis: Diagnosis) -> Diagnosis:
     lines = [_write_headline(diagnosis)]
     lines += [_describe_effect(finding, diagnosis) for finding in diagnosis.effects]
     lines += [_describe_refinement(f, diagnosis) for f in diagnosis.refinements]
-    void = diagnosis.contradicted or diagnosis.machine_changed
+    void = diagnosis.has_contradictions or diagnosis.machine_changed
     reported_joints = {} if void else diagnosis.joints
     lines += describe_rejected(diagnosis) if reported_joints else []
     for name, joint in reported_joints.items():
         if joint.is_unexplained:
-            left = joint.systematic + joint.noise
+            left = joint.systematic_share + joint.noise_share
             lines.append(
-                f"joint {name}: {format_percent(joint.systematic / left)} of the remaining error "
+                f"joint {name}: {format_percent(joint.systematic_share / left)} of the remaining "
+                "error "
                 "variance is systematic and not explained by the catalogue"
                 f"{_describe_bursts(diagnosis, name)}"
             )
-    lines += _list_changes(diagnosis) + [f"data: {line}" for line in diagnosis.data]
-    if not diagnosis.held_out:
+    lines += _list_changes(diagnosis) + [f"data: {line}" for line in diagnosis.data_warnings]
+    if not diagnosis.held_out_logs:
         lines.append(
             "no held-out logs: errors are cross-validated within the logs, which flatters effects "
             "that depend on the path; give other motion with --holdout"
@@ -422,8 +423,8 @@ def _write_headline(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict == "missing" and first is not None:
         return f"missing: {_format_effect(first, diagnosis)}{describe_equivalents(first)}"
     if diagnosis.verdict == "closest description" and first is not None:
-        perhaps = "possibly " if first.doubt else ""
-        reason = first.doubt or first.objection or _PART
+        perhaps = "possibly " if first.warning else ""
+        reason = first.warning or first.caveat or _PART
         return (
             "closest description: "
             f"{perhaps}{_format_effect(first, diagnosis)}{describe_equivalents(first)}; {reason}, "
@@ -431,7 +432,7 @@ def _write_headline(diagnosis: Diagnosis) -> str:
         )
     if diagnosis.verdict == "unexplained":
         return "unexplained: the error is systematic, and nothing in the catalogue describes it"
-    if diagnosis.contradicted:
+    if diagnosis.has_contradictions:
         return "cannot tell: channels of the logs contradict the model; mend them first"
     if diagnosis.verdict == "cannot tell":
         joints = diagnosis.joints.items()
@@ -465,7 +466,7 @@ def _describe_refinement(finding: Finding, diagnosis: Diagnosis) -> str:
     line = f"refinement on {place}: {finding.effect}, gain {gain}"
     effect = _find_effect(finding.effect, diagnosis)
     first = next(iter(finding.parameters.values()), 0.0)
-    return f"{line}: {effect.negative}" if effect.refines_model_term(first) else line
+    return f"{line}: {effect.negative_meaning}" if effect.refines_model_term(first) else line
 
 
 def _format_effect(finding: Finding, diagnosis: Diagnosis) -> str:
@@ -486,15 +487,15 @@ def _describe_effect(finding: Finding, diagnosis: Diagnosis) -> str:
         f"{name} = {value:.4g}{_format_spread(finding, name)}{format_unit(finding, name)}"
         for name, value in finding.parameters.items()
     )
-    if finding.closure is None:
+    if finding.explained_fraction is None:
         return f"{format_location(finding.joint)}: {finding.effect} ({values}): {finding.evidence}"
     names = format_equivalents(finding)
     tail = f"; these data do not distinguish it from {names}" if names else ""
-    for why in dict.fromkeys((finding.doubt, finding.objection)):
+    for why in dict.fromkeys((finding.warning, finding.caveat)):
         tail += f"; {why}" if why else ""
     change = " -> ".join(format_error_pair(finding.error_before, finding.error_after))
-    source = "held-out" if diagnosis.held_out else "cross-validated"
-    what = f"possibly {finding.effect}" if finding.doubt else finding.effect
+    source = "held-out" if diagnosis.held_out_logs else "cross-validated"
+    what = f"possibly {finding.effect}" if finding.warning else finding.effect
     return f"{format_location(finding.joint)}: {what} ({values}): {source} error {change}{tail}"
 
 
@@ -516,7 +517,7 @@ def format_unit(finding: Finding, name: str) -> str:
 def format_lines(diagnosis: Diagnosis) -> list[str]:
     """Formats verdict, findings, errors of all joints, and what the logs cannot show."""
     lines = list(diagnosis.sentences)
-    source = "held-out" if diagnosis.held_out else "cross-validated"
+    source = "held-out" if diagnosis.held_out_logs else "cross-validated"
     pairs = diagnosis.errors.items()
     entry = ", ".join(f"joint {name} {format_percent(error)}" for name, error in pairs)
     lines += ["", f"error of the model on these logs, up to {diagnosis.fit_band:.3g} Hz: {entry}"]

@@ -196,7 +196,7 @@ def _build_proposal(
         units=dict(zip(estimate.units, units, strict=False)) | shapes,
         equivalents=(),
         evidence=formula.title,
-        closure=None,
+        explained_fraction=None,
         is_refinement=False,
         pick=FittedCandidate(candidate, values, later, accepted.score.visible_share),
     )
@@ -210,12 +210,14 @@ def _build_proposal(
         definition=definition,
         equation=" + ".join(f"{c.prefix}{joint} {c.equation.text}" for c in effect.columns),
         effects_line=f"{name} = {format_toml([entry])}",
-        explained=min(1.0, accepted.score.variance_reduction / share) if share else math.nan,
+        explained_share=min(1.0, accepted.score.variance_reduction / share) if share else math.nan,
         symbols=formula.symbol_count,
-        instead=tuple(p.effect.id for p in effect_search.end.picks if p not in state.picks),
-        relative=relative,
-        likeness=likeness,
-        differs=differs,
+        replaced_effects=tuple(
+            p.effect.id for p in effect_search.end.picks if p not in state.picks
+        ),
+        nearest_effect=relative,
+        similarity=likeness,
+        difference=differs,
         final_search=replace(effect_search, steps=tuple(steps), end=later),
     )
 
@@ -301,5 +303,7 @@ def _add_discriminating_motions(
         command = f"modeler excite ROBOT.toml --between {pair} --out apart.csv"
         place = f"q = {q:.3g} {unit}, v = {v:.3g} {unit}/s, load = {load:.3g} {effort}"
         where = f"they differ most, by {apart.max():.3g} {effort}, near {place}"
-        results.append(replace(proposal, apart=command, where=where))
+        results.append(
+            replace(proposal, discriminating_command=command, discriminating_state=where)
+        )
     return tuple(results)

@@ -39,24 +39,28 @@ class CrossCheck:
     """What another look says of one effect.
 
     Attributes:
-        what: which look, in words.
-        leads: effect and joint that lead there on its joint; None if nothing does significantly.
+        label: which look, in words.
+        leading_effect: effect and joint that lead there on its joint; None if nothing does
+            significantly.
         agrees: True if that is the effect, if the data there do not distinguish it from the effect,
             or if nothing is sure there.
-        gain: fall of the residual variance of its joints there, cross-validated; NaN if unknown.
-        expected: what the values that it was named with let expect of it there; 0 if unknown.
+        variance_reduction: fall of the residual variance of its joints there, cross-validated; NaN
+            if unknown.
+        expected_reduction: what the values that it was named with let expect of it there; 0 if
+            unknown.
     """
 
-    what: str
-    leads: Key | None
+    label: str
+    leading_effect: Key | None
     agrees: bool
-    gain: float = math.nan
-    expected: float = 0.0
+    variance_reduction: float = math.nan
+    expected_reduction: float = 0.0
 
     def to_json(self) -> dict[str, Any]:
         """Returns what the other look says of the effect, as plain data."""
-        leads = None if self.leads is None else _describe_key(self.leads)
-        return {"leads": leads, **select_attributes(self, "what agrees gain expected")}
+        leads = None if self.leading_effect is None else _describe_key(self.leading_effect)
+        names = "label agrees variance_reduction expected_reduction"
+        return {"leading_effect": leads, **select_attributes(self, names)}
 
 
 @dataclass(frozen=True)
@@ -199,18 +203,23 @@ def explain_weak_evidence(
         reasons.append(f"it may as well be of another kind: {', '.join(kinds)}")
     unit = bool(objection) and is_gain(pick)  # it bends what every look weighs the joints by
     for check in () if unit else checks:
-        if not check.agrees and check.leads is not None:
-            reasons.append(f"{check.leads[0]} explains its joint better ({check.what})")
-        expected = check.expected > THRESHOLDS.min_expected_reduction and not is_gain(pick)
-        if expected and check.gain < THRESHOLDS.min_confirmed_share * check.expected:
-            reasons.append(f"it explains nothing {check.what}")
+        if not check.agrees and check.leading_effect is not None:
+            reasons.append(f"{check.leading_effect[0]} explains its joint better ({check.label})")
+        expected = check.expected_reduction > THRESHOLDS.min_expected_reduction and not is_gain(
+            pick
+        )
+        if (
+            expected
+            and check.variance_reduction < THRESHOLDS.min_confirmed_share * check.expected_reduction
+        ):
+            reasons.append(f"it explains nothing {check.label}")
     return "; ".join(reasons)
 
 
 def explain_exclusion(effect: Effect, spec: ModuleSpec) -> str:
     """Explains why an effect cannot go into a model of this robot; empty if it can."""
-    if effect.hindrance:
-        return effect.hindrance
+    if effect.obstacle:
+        return effect.obstacle
     moved = all(name.startswith(MOTION) for name in effect.forms[0].names)
     moved = moved and effect.acts is not EffectTarget.POSITION
     if spec.closure is None or effect.acts not in JOINTED or moved:
@@ -258,13 +267,13 @@ class Finding(ShortRepr):
         units: of the parameters and shapes.
         equivalents: effects that the data do not distinguish from it.
         evidence: why, in one or two sentences.
-        closure: share of what is systematic on its joints that it explains itself; None for
-            contacts and play, which are no columns of the model.
+        explained_fraction: share of what is systematic on its joints that it explains itself; None
+            for contacts and play, which are no columns of the model.
         is_refinement: true if it refines a law of the model, or an effect named before.
-        objection: why its values cannot be those of this robot; empty if they can.
+        caveat: why its values cannot be those of this robot; empty if they can.
         intervals: 95 % intervals of the parameters and shapes of an effect with shapes.
         cross_checks: what other logs and another band say of it; empty for contacts and play.
-        doubt: why it is possible only; empty if it is named.
+        warning: why it is possible only; empty if it is named.
         is_first: True if nothing was named before it.
         pick: what `modeler add` puts in; None for contacts and play.
         is_event: True if it came once.
@@ -279,27 +288,30 @@ class Finding(ShortRepr):
     units: Mapping[str, str]
     equivalents: tuple[Key, ...]
     evidence: str
-    closure: float | None
+    explained_fraction: float | None
     is_refinement: bool
-    objection: str = ""
+    caveat: str = ""
     intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     cross_checks: tuple[CrossCheck, ...] = ()
     pick: FittedCandidate | None = field(default=None, repr=False, compare=False)
     is_event: bool = False
-    doubt: str = ""
+    warning: str = ""
     is_first: bool = True
 
     @property
     def is_confirmed(self) -> bool:
         """Returns whether it is the cause, or one of those that these data do not distinguish."""
-        closed = self.closure is None or self.closure >= THRESHOLDS.min_explained_fraction
-        sure = not self.doubt and not self.objection and not math.isnan(self.gain)
+        closed = (
+            self.explained_fraction is None
+            or self.explained_fraction >= THRESHOLDS.min_explained_fraction
+        )
+        sure = not self.warning and not self.caveat and not math.isnan(self.gain)
         return closed and sure and self.is_first
 
     @property
     def status(self) -> str:
         """Returns "confirmed" of what is stated as missing, else "likely" or "possible"."""
-        if self.doubt:
+        if self.warning:
             return "possible"
         alone = not self.is_refinement and not self.equivalents
         return "confirmed" if self.is_confirmed and alone else "likely"
@@ -316,8 +328,8 @@ class Finding(ShortRepr):
             **select_attributes(self, "effect joint status gain error_before error_after"),
             **select_attributes(self, "parameters sigmas intervals units"),
             "ties": list(map(_describe_key, self.equivalents)),
-            **select_attributes(self, "evidence closure objection doubt"),
-            "looks": [check.to_json() for check in self.cross_checks],
+            **select_attributes(self, "evidence explained_fraction caveat warning"),
+            "splits": [check.to_json() for check in self.cross_checks],
         }
 
 
@@ -330,30 +342,31 @@ class EquationProposal(ShortRepr):
         definition: its table of `[own_effects]`.
         equation: its columns, each times its parameter.
         effects_line: that of `[effects]`.
-        explained: share of what a learned law explains there.
+        explained_share: share of what a learned law explains there.
         symbols: what its price counts.
-        instead: effects of the catalogue in place of which it stands.
-        relative: id of the nearest effect with a name.
-        likeness: share of its torque that this explains.
-        differs: what differs, in plain words.
+        replaced_effects: effects of the catalogue in place of which it stands.
+        nearest_effect: id of the nearest effect with a name.
+        similarity: share of its torque that this explains.
+        difference: what differs, in plain words.
         final_search: the search with it as its last step, for pictures.
-        apart: the command that looks for a motion which distinguishes it from the next.
-        where: the state of the joint in these logs in which they differ most.
+        discriminating_command: the command that looks for a motion which distinguishes it from
+            the next.
+        discriminating_state: the state of the joint in these logs in which they differ most.
     """
 
     finding: Finding
     definition: Mapping[str, Any]
     equation: str
     effects_line: str
-    explained: float
+    explained_share: float
     symbols: int
-    instead: tuple[str, ...]
-    relative: str
-    likeness: float
-    differs: str
+    replaced_effects: tuple[str, ...]
+    nearest_effect: str
+    similarity: float
+    difference: str
     final_search: Search = field(repr=False)
-    apart: str = ""
-    where: str = ""
+    discriminating_command: str = ""
+    discriminating_state: str = ""
 
     @property
     def text(self) -> str:
@@ -372,16 +385,21 @@ class EquationProposal(ShortRepr):
             for name, value in f.parameters.items()
         )
         change = " -> ".join(format_error_pair(f.error_before, f.error_after))
-        instead = f", in place of {', '.join(self.instead)}" if self.instead else ""
-        law = f"{format_percent(self.explained)} of what a learned law explains"
-        law = "a learned law explains nothing" if math.isnan(self.explained) else law
+        instead = (
+            f", in place of {', '.join(self.replaced_effects)}" if self.replaced_effects else ""
+        )
+        law = f"{format_percent(self.explained_share)} of what a learned law explains"
+        law = "a learned law explains nothing" if math.isnan(self.explained_share) else law
         lines = [
             f"joint {f.joint}: {self.equation}: error {change}{instead}; {law}",
             f"  {values}",
-            f"  {self.differs}",
+            f"  {self.difference}",
         ]
-        if self.apart:
-            lines += [f"  discriminating motion: {self.apart}", f"  {self.where}"]
+        if self.discriminating_command:
+            lines += [
+                f"  discriminating motion: {self.discriminating_command}",
+                f"  {self.discriminating_state}",
+            ]
         return lines
 
     def format_lines(self) -> list[str]:
@@ -393,8 +411,9 @@ class EquationProposal(ShortRepr):
         return {
             **select_attributes(self.finding, "effect joint error_before error_after gain"),
             **select_attributes(self.finding, "parameters sigmas intervals units"),
-            **select_attributes(self, "text equation effects_line explained symbols instead"),
-            **select_attributes(self, "relative likeness differs apart where"),
+            **select_attributes(self, "text equation effects_line explained_share symbols"),
+            **select_attributes(self, "replaced_effects nearest_effect similarity difference"),
+            **select_attributes(self, "discriminating_command discriminating_state"),
         }
 
 
@@ -407,25 +426,25 @@ class JointDiscovery(ShortRepr):
         share: of the residual's variance that a learned law explains on motion left out.
         law: of what the law is a function; empty where it is the nonparametric baseline's.
         proposals: best first.
-        why: why there are none.
+        reason: why there are none.
     """
 
     joint: str
     share: float
     law: str
     proposals: tuple[EquationProposal, ...] = ()
-    why: str = ""
+    reason: str = ""
 
     def format_lines(self) -> list[str]:
         """Formats the lines for people."""
         if not self.proposals:
-            return [f"joint {self.joint}: {self.why}"]
+            return [f"joint {self.joint}: {self.reason}"]
         return [line for proposal in self.proposals for line in proposal.format_lines()]
 
     def to_json(self) -> dict[str, Any]:
         """Returns what was looked for on the joint, as plain data."""
         return {
-            **select_attributes(self, "joint share law why"),
+            **select_attributes(self, "joint share law reason"),
             "proposals": [p.to_json() for p in self.proposals],
         }
 
@@ -438,10 +457,10 @@ class JointState(ShortRepr):
         error_before, error_after: relative error, held out.
         unit: of the torque.
         rms_before, rms_after: of the residual on the training logs.
-        explained: share of the torque's variance that the model explains; NaN without torque.
-        systematic: share of it that is left and is no noise: predictable, repeatable, lasting, or
-            in bursts.
-        noise: the rest.
+        explained_share: share of the torque's variance that the model explains; NaN without torque.
+        systematic_share: share of it that is left and is no noise: predictable, repeatable,
+            lasting, or in bursts.
+        noise_share: the rest.
     """
 
     error_before: float
@@ -449,16 +468,16 @@ class JointState(ShortRepr):
     unit: str
     rms_before: float
     rms_after: float
-    explained: float
-    systematic: float
-    noise: float
+    explained_share: float
+    systematic_share: float
+    noise_share: float
 
     @property
     def is_unexplained(self) -> bool:
         """Returns whether a significant systematic residual remains."""
-        left = self.systematic + self.noise
+        left = self.systematic_share + self.noise_share
         share = THRESHOLDS.min_systematic_share * left
-        return self.systematic > max(THRESHOLDS.min_systematic_torque**2, share)
+        return self.systematic_share > max(THRESHOLDS.min_systematic_torque**2, share)
 
 
 @dataclass(frozen=True, eq=False)
@@ -470,15 +489,16 @@ class Diagnosis(Result):
         verdict: missing | closest description | nothing significant | unexplained | cannot tell.
         effects: named, best first.
         refinements: of laws that the model has, or of effects named before.
-        rivals: of the first effect: effect, joint, gain.
-        blind_spots: what these data cannot show, by effect and joint.
+        alternatives: of the first effect: effect, joint, gain.
+        undetectable: what these data cannot show, by effect and joint.
         joints: by name; those with rows.
-        unmoved: joints of which no row can be used.
-        held_out: names of the logs that errors come from; empty for cross-validation.
+        unmoved_joints: joints of which no row can be used.
+        held_out_logs: names of the logs that errors come from; empty for cross-validation.
         sentences: for people: verdict first.
         fit_band: Hz up to which the model was fitted, and `modeler add` fits.
-        data: warnings about the logs themselves.
-        contradicted: True if channels of the logs contradict the model: then nothing is named.
+        data_warnings: warnings about the logs themselves.
+        has_contradictions: True if channels of the logs contradict the model: then nothing is
+            named.
         machine_changed: parameters in which the machine of the held-out logs differs: then
             nothing is judged.
         window: when something pushed, if anything did.
@@ -491,15 +511,15 @@ class Diagnosis(Result):
     verdict: str
     effects: tuple[Finding, ...]
     refinements: tuple[Finding, ...]
-    rivals: tuple[tuple[str, str | None, float], ...]
-    blind_spots: tuple[Key, ...]
+    alternatives: tuple[tuple[str, str | None, float], ...]
+    undetectable: tuple[Key, ...]
     joints: Mapping[str, JointState]
-    unmoved: tuple[str, ...]
-    held_out: tuple[str, ...]
+    unmoved_joints: tuple[str, ...]
+    held_out_logs: tuple[str, ...]
     sentences: tuple[str, ...]
     fit_band: float
-    data: tuple[str, ...]
-    contradicted: bool
+    data_warnings: tuple[str, ...]
+    has_contradictions: bool
     machine_changed: tuple[ParameterChange, ...]
     window: PushWindow | None
     search: Search
@@ -539,13 +559,13 @@ class Diagnosis(Result):
             if finding.pick is None or finding.pick.visible_share < least:
                 return False
             effect = finding.pick.candidate.effect
-            new = (finding.effect, finding.joint) not in has or effect.several
+            new = (finding.effect, finding.joint) not in has or effect.is_repeatable
             return new and not explain_exclusion(effect, spec)
 
         return () if self.machine_changed else tuple(filter(can_add, self.effects))
 
     @property
-    def changed(self) -> bool:
+    def has_changed(self) -> bool:
         """Returns whether the robot has changed since the fit, so that parameters were fixed."""
         return self.search.start.data.fixed_parameters is not None
 
@@ -556,11 +576,15 @@ class Diagnosis(Result):
         return convert_to_plain(
             {
                 **select_attributes(self, "robot verdict effects refinements"),
-                "rivals": [{**_describe_key((e, j)), "gain": gain} for e, j, gain in self.rivals],
-                "blind_spots": list(map(_describe_key, self.blind_spots)),
+                "alternatives": [
+                    {**_describe_key((e, j)), "gain": gain} for e, j, gain in self.alternatives
+                ],
+                "undetectable": list(map(_describe_key, self.undetectable)),
                 "joints": {n: {"relative_error": self.errors.get(n), **vars(j)} for n, j in joints},
-                **select_attributes(self, "unmoved held_out sentences band fit_band data changed"),
-                **select_attributes(self, "contradicted machine_changed"),
+                **select_attributes(self, "unmoved_joints held_out_logs sentences band fit_band"),
+                **select_attributes(
+                    self, "data_warnings has_changed has_contradictions machine_changed"
+                ),
                 **({} if proposed is None else {"discoveries": [d.to_json() for d in proposed]}),
             }
         )

@@ -311,7 +311,7 @@ class ScoredCandidate(ShortRepr):
     def is_unlikely(self) -> bool:
         """Returns whether it, or its sign, is possible but rare."""
         effect = self.candidate.effect
-        return effect.rare or (effect.rarely_negative and float(self.values[0]) < 0.0)
+        return effect.is_rare or (effect.is_rarely_negative and float(self.values[0]) < 0.0)
 
     def is_near(self, best: "ScoredCandidate") -> bool:
         """Returns whether it explains nearly as much as the best: both are then refined."""
@@ -426,7 +426,9 @@ def select_best(state: State, candidate_scores: list[ScoredCandidate]) -> Ranked
         stem = _find_plain_friction(item, candidate_scores)
         if stem is not None:
             return RankedCandidates(tuple(candidate_scores), stem)
-        if item.candidate.effect.timing and not is_confirmed(state, item.candidate, item.values):
+        if item.candidate.effect.is_timing_sensitive and not is_confirmed(
+            state, item.candidate, item.values
+        ):
             candidate_scores[place] = replace(item, is_confirmed=False)
             continue
         simplest = _select_simplest(state, item, candidate_scores)
@@ -467,10 +469,14 @@ def _select_simplest(
 
     A timing-like effect may stand for another timing-like one only.
     """
-    timing = best.candidate.effect.timing
+    timing = best.candidate.effect.is_timing_sensitive
     least = THRESHOLDS.parsimony_share * best.total_reduction
     near = [j for j in find_equivalents(best, candidate_scores) if j.total_reduction > least]
-    near = [j for j in near if j.is_significant and (timing or not j.candidate.effect.timing)]
+    near = [
+        j
+        for j in near
+        if j.is_significant and (timing or not j.candidate.effect.is_timing_sensitive)
+    ]
 
     def compute_sort_key(j: ScoredCandidate) -> tuple[bool, bool, float, float]:
         numbers = count_free_numbers(j.candidate)
@@ -480,7 +486,9 @@ def _select_simplest(
     return next(
         j
         for j in order
-        if j is best or not j.candidate.effect.timing or is_confirmed(state, j.candidate, j.values)
+        if j is best
+        or not j.candidate.effect.is_timing_sensitive
+        or is_confirmed(state, j.candidate, j.values)
     )
 
 
@@ -521,7 +529,7 @@ def find_equivalents(
         large = other.variance_reduction >= THRESHOLDS.min_variance_reduction
         if other is best or not other.is_possible or not large:
             continue
-        same = other.candidate.effect.id in best.candidate.effect.same_as
+        same = other.candidate.effect.id in best.candidate.effect.equivalent_effects
         if same or compute_t_ratio(best.reductions - other.reductions) <= THRESHOLDS.max_chance_t:
             equivalents.append(other)
     return equivalents

@@ -247,10 +247,10 @@ def scan_candidates(state: State, candidates: Sequence[Candidate]) -> CandidateS
 def is_vetoed(candidate: Candidate, vetoed: Sequence[ScoredCandidate]) -> bool:
     """Returns whether it was vetoed; of ripples, all orders within a tenth."""
     others = [candidate_score.candidate for candidate_score in vetoed]
-    if not candidate.effect.several:
-        return any(c.key == candidate.key for c in others if not c.effect.several)
+    if not candidate.effect.is_repeatable:
+        return any(c.key == candidate.key for c in others if not c.effect.is_repeatable)
     order = candidate.wave_order
-    orders = [c.wave_order for c in others if c.effect.several]
+    orders = [c.wave_order for c in others if c.effect.is_repeatable]
     return any(abs(order - m) < 0.1 * m for m in orders)
 
 

@@ -480,9 +480,9 @@ def choose_band(
     prepared = prepared or regression.prepare_logs(compiled.spec, logs, fitted, repair)
     prepared = prepared.drop_commands()
     noise = prepared.noise
-    if "parallel_cutoff" not in fitted.chosen or not noise.moving:
+    if "parallel_cutoff" not in fitted.automatic_cutoffs or not noise.moving:
         return prepared
-    user_cutoff = None if "position_cutoff" in fitted.chosen else fitted.position_cutoff
+    user_cutoff = None if "position_cutoff" in fitted.automatic_cutoffs else fitted.position_cutoff
     asked = replace(
         fitted, position_cutoff=user_cutoff, parallel_cutoff=None, decimation=None, edge=None
     )

@@ -137,12 +137,12 @@ def read_definition(
         "equation": " + ".join(f"{c.prefix} * ({c.equation.text})" for c in columns) + late,
         "family": name,
         "signature": f"residual against {quantities}: the curve of its equation",
-        "shows": "itself" if acts is EffectTarget.POSITION else axis,
-        "look_alikes": "whatever has nearly the same curve on the motion of the logs; log more of "
+        "signature_axis": "itself" if acts is EffectTarget.POSITION else axis,
+        "confounders": "whatever has nearly the same curve on the motion of the logs; log more of "
         f"the range of {quantities}",
         "range": "parameters not negative" if columns[0].nonnegative else "either sign",
         "source": "the robot file",
-        "timing": "a" in used,
+        "is_timing_sensitive": "a" in used,
     }
     for key in table.keys() - set(_CATALOGUE_KEYS):
         stated[key] = tuple(table[key]) if isinstance(table[key], list) else table[key]
@@ -482,7 +482,7 @@ def _read_catalogue() -> tuple[Effect, ...]:
 CATALOGUE: tuple[Effect, ...] = _read_catalogue()
 """The effects, in the order in which their parameters stand after the link's own."""
 
-ENCODERS = tuple(effect.id for effect in CATALOGUE if effect.whole_axis)
+ENCODERS = tuple(effect.id for effect in CATALOGUE if effect.acts_on_whole_axis)
 """What moves the position of the whole axis, motor and links: the encoder shows it wrongly."""
 
 PASSIVE_FRICTION = "passive_friction"

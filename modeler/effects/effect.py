@@ -225,25 +225,26 @@ class Effect(ShortRepr):
         acts: on what.
         family: friction | load | transmission | measurement | inertia, or the id of an effect of a
             robot file: leftovers of one family on one joint refine each other.
-        negative: what a value below zero means, where that is no missing effect but mends the form
-            of one in the model; empty elsewhere.
-        turns: True if only a joint that turns can have it.
-        rarely_negative: True if its first parameter seldom is: an alternative that explains as much
-            is likelier then.
-        timing: True if errors of timing or of the encoder imitate it: the commanded motion decides.
+        negative_meaning: what a value below zero means, where that is no missing effect but mends
+            the form of one in the model; empty elsewhere.
+        is_rotary_only: True if only a joint that turns can have it.
+        is_rarely_negative: True if its first parameter seldom is: an alternative that explains as
+            much is likelier then.
+        is_timing_sensitive: True if errors of timing or of the encoder imitate it: the commanded
+            motion decides.
         signature: how it shows itself in the residual.
-        shows: the axis on which it does.
-        look_alikes: what it is mistaken for, and which motion distinguishes them.
-        same_as: ids of effects that no data distinguish from it.
+        signature_axis: the axis on which it does.
+        confounders: what it is mistaken for, and which motion distinguishes them.
+        equivalent_effects: ids of effects that no data distinguish from it.
         sign: of its last parameter, where that with the other is another effect; else 0.
         needs: what must be true of the robot for its values to be believed.
-        rare: True if an alternative that explains as much is likelier.
-        several: True if a joint may have it several times, with other shapes.
+        is_rare: True if an alternative that explains as much is likelier.
+        is_repeatable: True if a joint may have it several times, with other shapes.
         orders: of waves that are proposed for it, least and largest; None: those of its grid only.
-        whole_axis: True if it moves motor and links: the encoder shows both wrongly.
-        last_link: True if it is carried by the last link.
-        knocks: True if it shows by bursts after the load changes sign.
-        hindrance: why it cannot be put into a model, and what to do; empty if it can.
+        acts_on_whole_axis: True if it moves motor and links: the encoder shows both wrongly.
+        is_on_last_link: True if it is carried by the last link.
+        has_impacts: True if it shows by bursts after the load changes sign.
+        obstacle: why it cannot be put into a model, and what to do; empty if it can.
         range: sign and range that physics allows.
         source: where it is described.
     """
@@ -256,24 +257,24 @@ class Effect(ShortRepr):
     acts: EffectTarget
     family: str
     signature: str
-    shows: SignatureAxis
-    look_alikes: str
+    signature_axis: SignatureAxis
+    confounders: str
     range: str
     source: str
-    same_as: tuple[str, ...] = ()
+    equivalent_effects: tuple[str, ...] = ()
     sign: int = 0
     needs: tuple[Requirement, ...] = ()
-    rare: bool = False
-    several: bool = False
+    is_rare: bool = False
+    is_repeatable: bool = False
     orders: tuple[float, float] | None = None
-    whole_axis: bool = False
-    last_link: bool = False
-    knocks: bool = False
-    hindrance: str = ""
-    turns: bool = False
-    rarely_negative: bool = False
-    timing: bool = False
-    negative: str = ""
+    acts_on_whole_axis: bool = False
+    is_on_last_link: bool = False
+    has_impacts: bool = False
+    obstacle: str = ""
+    is_rotary_only: bool = False
+    is_rarely_negative: bool = False
+    is_timing_sensitive: bool = False
+    negative_meaning: str = ""
 
     @property
     def columns(self) -> tuple[EffectColumn, ...]:
@@ -287,7 +288,7 @@ class Effect(ShortRepr):
 
     def refines_model_term(self, value: float) -> bool:
         """Returns True if that value of its first parameter refines a term of the model."""
-        return self.negative != "" and value < 0.0
+        return self.negative_meaning != "" and value < 0.0
 
     @property
     def is_oscillator(self) -> bool:
@@ -305,7 +306,7 @@ class Effect(ShortRepr):
             EffectTarget.POSITION,
             EffectTarget.PASSIVE,
         )
-        return acts and not self.hindrance
+        return acts and not self.obstacle
 
     @property
     def is_coupled(self) -> bool:

@@ -474,7 +474,7 @@ def _compute_figures(
         model=name,
         rows=rows,
         condition_scaled=fit.condition_scaled,
-        known=int(np.sum((sigma > 0.0) & is_known)),
+        precise_count=int(np.sum((sigma > 0.0) & is_known)),
         torque_error=float(np.linalg.norm(y - W @ beta) / np.linalg.norm(y)),
         torque_sigma=float(np.sqrt(squares.sum()) / np.linalg.norm(y)),
         joint_sigma={

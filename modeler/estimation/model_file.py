@@ -63,7 +63,7 @@ class LogProvenance:
         name: its file name, no folder.
         rows: read.
         samples: after decimation.
-        content: fingerprint of the whole file's measurements; it shows the file under any name.
+        fingerprint: fingerprint of the whole file's measurements; it shows the file under any name.
         start, end: s, first and last row that was used of it.
         path: as it was given, `@START:END` of a piece of it too; relative to the folder of work, or
             to that of the model file. A hint, where the model was mailed; "" of what was no file.
@@ -73,7 +73,7 @@ class LogProvenance:
     name: str
     rows: int
     samples: int
-    content: str
+    fingerprint: str
     start: float
     end: float
     path: str = ""
@@ -91,7 +91,7 @@ class LogProvenance:
 
     def has_rows_of(self, log: LogRows) -> bool:
         """Returns True if rows of `log` were fitted."""
-        return has_shared_rows(log, self.content, self.start, self.end)
+        return has_shared_rows(log, self.fingerprint, self.start, self.end)
 
 
 @dataclass(frozen=True)
@@ -101,51 +101,54 @@ class Addition(Result):
     Attributes:
         effect: id; "" for the model as it was first fitted.
         joint: name; None for an effect of the whole robot.
-        shapes: values of its nonlinear parameters, SI.
+        nonlinear_parameters: values of its nonlinear parameters, SI.
         error: relative error with it on held-out logs, root mean square over the joints; on the
             fitted logs, eight parts left out in turn, where none were held out.
         training_error: the same on the fitted logs.
-        held_out: names of the held-out logs.
+        held_out_logs: names of the held-out logs.
         robot_text: the robot file with it.
         delay: s, of the processing with it.
-        shape_sigmas: standard deviations of the nonlinear parameters.
-        shape_intervals: 95 % intervals of the nonlinear parameters.
+        nonlinear_sigmas: standard deviations of the nonlinear parameters.
+        nonlinear_intervals: 95 % intervals of the nonlinear parameters.
         joints: relative error before and with it, by joint, on the logs of `error`.
-        changed: joints whose error changed significantly.
-        falls: True if the error falls significantly, and rises on no joint.
-        doubt: why a diagnosis would call it possible only; empty if it would call it likely.
-        moved: by how much each parameter that was there moved, in its sigmas; of learned laws only.
+        changed_joints: joints whose error changed significantly.
+        is_improvement: True if the error falls significantly, and rises on no joint.
+        warning: why a diagnosis would call it possible only; empty if it would call it likely.
+        shifts_in_sigmas: by how much each parameter that was there moved, in its sigmas; of learned
+            laws only.
     """
 
     effect: str
     joint: str | None
-    shapes: Mapping[str, float]
+    nonlinear_parameters: Mapping[str, float]
     error: float
     training_error: float
-    held_out: tuple[str, ...]
+    held_out_logs: tuple[str, ...]
     robot_text: str
     delay: float = 0.0
-    shape_sigmas: Mapping[str, float] = field(default_factory=dict)
-    shape_intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    nonlinear_sigmas: Mapping[str, float] = field(default_factory=dict)
+    nonlinear_intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     joints: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    changed: tuple[str, ...] = ()
-    falls: bool = True
-    doubt: str = ""
-    moved: Mapping[str, float] = field(default_factory=dict)
+    changed_joints: tuple[str, ...] = ()
+    is_improvement: bool = True
+    warning: str = ""
+    shifts_in_sigmas: Mapping[str, float] = field(default_factory=dict)
 
     @property
-    def learned(self) -> bool:
+    def is_learned(self) -> bool:
         """Returns True of a law that was learned, which is no physics."""
-        return bool(self.moved)
+        return bool(self.shifts_in_sigmas)
 
     def to_json(self) -> dict[str, Any]:
         """Returns the added effect as plain data, without the robot file."""
-        names = "joint error training_error shapes shape_sigmas shape_intervals held_out"
+        names = "joint error training_error nonlinear_parameters"
         return {
             "effect": self.effect or None,
             **select_attributes(self, names),
+            **select_attributes(self, "nonlinear_sigmas nonlinear_intervals held_out_logs"),
             "joints": {j: {"before": a, "after": b} for j, (a, b) in self.joints.items()},
-            **select_attributes(self, "changed falls doubt learned moved"),
+            **select_attributes(self, "changed_joints is_improvement warning is_learned"),
+            "shifts_in_sigmas": self.shifts_in_sigmas,
         }
 
 
@@ -179,10 +182,10 @@ class IdentifiedModel(Result):
         Falls of the relative error, in the order in which they were added; None without learned
         laws.
         """
-        if not any(step.learned for step in self.history):
+        if not any(step.is_learned for step in self.history):
             return None
         pairs = itertools.pairwise(self.history)
-        falls = [(new.learned, old.error - new.error) for old, new in pairs]
+        falls = [(new.is_learned, old.error - new.error) for old, new in pairs]
         physics, learned = (sum(fall for x, fall in falls if x is kind) for kind in (False, True))
         return physics, learned
 
@@ -446,10 +449,10 @@ def build_fitted_spec(model: IdentifiedModel) -> FittedSpec:
     gains = tuple(joint.drive_gain for joint in joints if joint.drive_gain is not None)
     return FittedSpec(
         method=fit.method,
-        usable=None if verdict is None else verdict.usable,
+        valid=None if verdict is None else verdict.valid,
         verdict="" if verdict is None else verdict.line,
-        doubts=() if verdict is None else verdict.doubts,
-        remarks=tuple(_write_remarks(model)),
+        warnings=() if verdict is None else verdict.warnings,
+        notes=tuple(_write_remarks(model)),
         parameters=tuple(
             FittedParameter(p.name, p.unit, p.value, p.sigma, p.essential) for p in fit.parameters
         ),

@@ -282,21 +282,21 @@ class ReducedModel(ShortRepr):
 
     Attributes:
         parameters: essential ones, in column order; sigma holds if those left out are 0.
-        dropped: names of those left out, in the order of leaving.
+        dropped_parameters: names of those left out, in the order of leaving.
         condition_number: of W with their columns only.
         condition_scaled: with columns of length one.
         relative_error: ||y - W beta|| / ||y||, with the same filter on both sides.
-        ratio: F statistic of all that were left out together.
-        limit: the F quantile, which decides unless sigmas do; None if nothing was left out.
+        f_statistic: F statistic of all that were left out together.
+        f_limit: the F quantile, which decides unless sigmas do; None if nothing was left out.
     """
 
     parameters: tuple[ParameterEstimate, ...]
-    dropped: tuple[str, ...]
+    dropped_parameters: tuple[str, ...]
     condition_number: float
     condition_scaled: float
     relative_error: float
-    ratio: float
-    limit: float | None
+    f_statistic: float
+    f_limit: float | None
 
     def to_json(self) -> dict[str, Any]:
         """Returns the essential parameters and what was left out as plain data."""
@@ -321,8 +321,9 @@ def build_reduced_model(
     values = zip(essential.names, reduced.beta.tolist(), sigma.tolist(), strict=True)
     return ReducedModel(
         tuple(ParameterEstimate(n, units[n], x, s, True, "estimated") for n, x, s in values),
-        **select_attributes(essential, "dropped ratio"),
+        dropped_parameters=essential.dropped,
+        f_statistic=essential.ratio,
         **select_attributes(reduced, "condition_number condition_scaled"),
         relative_error=error,
-        limit=essential.limit if essential.dropped else None,
+        f_limit=essential.limit if essential.dropped else None,
     )

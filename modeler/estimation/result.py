@@ -32,7 +32,7 @@ class ModelFigures(ShortRepr):
         model: "torque", "energy, Simpson" or "energy, trapezoid".
         rows: of its W.
         condition_scaled: of W with columns of length one.
-        known: parameters with a sigma below 10 % of their value.
+        precise_count: parameters with a sigma below 10 % of their value.
         torque_error: ||tau - W beta|| / ||tau|| with its beta, on the rows of the torque model.
         torque_sigma: sqrt(tr(W C W^T)) / ||tau||: what its covariance C comes to in the same
             torques. Noise of the torques themselves is not in it.
@@ -47,7 +47,7 @@ class ModelFigures(ShortRepr):
     model: str
     rows: int
     condition_scaled: float
-    known: int
+    precise_count: int
     torque_error: float
     torque_sigma: float
     imbalance: float | None = None
@@ -59,7 +59,7 @@ class ModelFigures(ShortRepr):
         return (
             f"{self.rows}",
             f"{self.condition_scaled:.4g}",
-            f"{self.known}",
+            f"{self.precise_count}",
             format_percent(self.torque_error),
             format_percent(self.torque_sigma),
             "-" if self.imbalance is None else f"{self.imbalance:.1e}",
@@ -84,7 +84,7 @@ class EnergyReport(ShortRepr):
     parameters: int
 
     @property
-    def ratio(self) -> float:
+    def uncertainty_ratio(self) -> float:
         """Returns the uncertainty of the torques over the torque model's, at the worst joint.
 
         Over all joints together the largest torques alone would count.
@@ -122,7 +122,10 @@ class EnergyReport(ShortRepr):
         """Returns which of the two models to take, and what the rule of integration does."""
         torque, energy, _ = self.figures
         where, ratio = self._find_worst_joint()
-        known = f"{energy.known} (torque model: {torque.known}) of {self.parameters} parameters"
+        known = (
+            f"{energy.precise_count} (torque model: {torque.precise_count}) of {self.parameters} "
+            "parameters"
+        )
         first = (
             f"the energy model has {ratio:.3g} times the uncertainty of the torque model in the "
             f"torques of {where} and knows {known}; for torques and values take --model torque"
@@ -141,7 +144,7 @@ class EnergyReport(ShortRepr):
 
     def to_json(self) -> dict[str, Any]:
         """Returns the comparison of the energy model with the torque model as plain data."""
-        return select_attributes(self, "window relative_error parameters ratio") | {
+        return select_attributes(self, "window relative_error parameters uncertainty_ratio") | {
             "figures": [vars(item) for item in self.figures],
             "sentences": self.format_sentences(),
         }
@@ -286,28 +289,29 @@ class Verdict(ShortRepr):
     """Holds what a fit is valid for.
 
     Attributes:
-        usable: True if it predicts the torques of motion like that of its logs.
+        valid: True if it predicts the torques of motion like that of its logs.
         valid_for: "parameters" (its values are those of a machine: simulation, control, other
             motion), "prediction" (torques of motion like that of its logs), "nothing".
         line: for people: valid or not, why, what to do.
-        doubts: all that speaks against it.
-        unseen: faults that these logs would not show, in words.
+        warnings: all that speaks against it.
+        undetectable_faults: faults that these logs would not show, in words.
         by_joint: the same joint by joint; empty in files that lack it.
-        possible: whether the values are physically consistent; None where the logs are at fault.
+        physically_consistent: whether the values are physically consistent; None where the logs are
+            at fault.
     """
 
-    usable: bool
+    valid: bool
     valid_for: Literal["parameters", "prediction", "nothing"]
     line: str
-    doubts: tuple[str, ...]
-    unseen: tuple[str, ...] = ()
+    warnings: tuple[str, ...]
+    undetectable_faults: tuple[str, ...] = ()
     by_joint: Mapping[str, JointVerdict] = field(default_factory=dict)
-    possible: bool | None = None
+    physically_consistent: bool | None = None
 
     def format_warning(self) -> list[str]:
         """Returns a line for whoever uses a model that is not valid; none for one that is."""
         line = self.line[:1].lower() + self.line[1:]
-        return [] if self.usable else [f"the fit of this model is {line}"]
+        return [] if self.valid else [f"the fit of this model is {line}"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -340,7 +344,7 @@ class FitResult(Result):
         gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
         singular_values: of the drive gains, descending; 1 is noise (see `solve_mixed_tls`).
         reading: of long logs: passes, chunks, rows, windows, rows_in_windows; empty of others.
-        contradicted: lines on what the prior of the robot file says and the data contradict.
+        prior_conflicts: lines on what the prior of the robot file says and the data contradict.
         by_load: the joints on the "bare" and on the "loaded" logs; empty without payloads.
         bands: the cut-offs, what chose them, the noise of the motion; None in files that lack it.
     """
@@ -372,7 +376,7 @@ class FitResult(Result):
     reading: Mapping[str, int] = field(default_factory=dict)
     by_load: Mapping[str, tuple[JointFit, ...]] = field(default_factory=dict)
     bands: Bands | None = None
-    contradicted: tuple[str, ...] = ()
+    prior_conflicts: tuple[str, ...] = ()
 
     @property
     def beta(self) -> np.ndarray:
@@ -392,7 +396,11 @@ class FitResult(Result):
 
     def format_lines(self) -> list[str]:
         """Returns lines of text: parameters, joints, remarks, the verdict last."""
-        alone = self.essential.parameters if self.essential and self.essential.dropped else ()
+        alone = (
+            self.essential.parameters
+            if self.essential and self.essential.dropped_parameters
+            else ()
+        )
         lines = format_parameters((*self.gains, *self.parameters, *self.loads), alone)
         lines += format_directions(self.directions)
         lines += [
@@ -410,8 +418,8 @@ class FitResult(Result):
         lines += [*format_bodies(self.standard), *self.sentences]
         lines += self.energy.format_lines() if self.energy is not None else []
         if self.verdict is not None:
-            others = (line for line in self.verdict.doubts if line not in self.verdict.line)
-            lines += [*(f"warning: {line}" for line in others), *self.verdict.unseen]
+            others = (line for line in self.verdict.warnings if line not in self.verdict.line)
+            lines += [*(f"warning: {line}" for line in others), *self.verdict.undetectable_faults]
             lines.append(self.verdict.line)
         return lines
 
@@ -428,20 +436,24 @@ class FitResult(Result):
         }
         names = "parameters loads gains singular_values sentences processing"
         plain |= select_attributes(self, names)
-        plain |= select_attributes(self, "standard essential contradicted directions")
+        plain |= select_attributes(self, "standard essential prior_conflicts directions")
         plain["model"] = "torque" if self.energy is None else "energy"
         plain |= select_attributes(self, "energy bands")
         plain |= {
-            "usable": None,
+            "valid": None,
             "valid_for": None,
             "verdict": None,
-            "doubts": [],
-            "possible": None,
+            "warnings": [],
+            "physically_consistent": None,
         }
         if verdict is not None:
-            plain |= select_attributes(verdict, "usable valid_for doubts possible")
+            plain |= select_attributes(verdict, "valid valid_for warnings physically_consistent")
             plain["verdict"] = verdict.line
-            plain |= {"unseen": verdict.unseen} if verdict.unseen else {}
+            plain |= (
+                {"undetectable_faults": verdict.undetectable_faults}
+                if verdict.undetectable_faults
+                else {}
+            )
         plain |= {"reading": dict(self.reading)} if self.reading else {}
         return dict(convert_to_plain(plain))
 
@@ -510,14 +522,14 @@ def _add_names(joints: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 def _read_verdict(raw: Mapping[str, Any]) -> Verdict | None:
     """Returns None where the fit was not judged."""
-    if raw.get("usable") is None:
+    if raw.get("valid") is None:
         return None
     judged = {
         name: {"state": joint["state"], "why": joint["why"]}
         for name, joint in raw["joints"].items()
         if "state" in joint
     }
-    values = {"doubts": [], **raw, "line": raw["verdict"], "by_joint": judged}
+    values = {"warnings": [], **raw, "line": raw["verdict"], "by_joint": judged}
     return read_back(Verdict, values, "its verdict")
 
 

@@ -31,9 +31,9 @@ class MethodResult(ShortRepr):
         refusal: why; empty if it was not.
         seconds: of the fit.
         held_out_error: ||y - W beta|| / ||y|| of other logs, processed alike; None without any.
-        farthest: parameter whose value is farthest from that of the weighted fit, and by how many
-            of the larger sigma; None for the weighted fit itself.
-        remarks: what this fit says of itself; else when not to use it.
+        largest_shift: parameter whose value is farthest from that of the weighted fit, and by how
+            many of the larger sigma; None for the weighted fit itself.
+        notes: what this fit says of itself; else when not to use it.
     """
 
     method: Method
@@ -41,16 +41,16 @@ class MethodResult(ShortRepr):
     refusal: str
     seconds: float
     held_out_error: float | None
-    farthest: tuple[str, float] | None
-    remarks: tuple[str, ...]
+    largest_shift: tuple[str, float] | None
+    notes: tuple[str, ...]
 
     def to_json(self) -> dict[str, Any]:
         """Returns what the estimator gives as plain data."""
         return {
             "method": self.method,
-            **select_attributes(ABOUT[self.method], "title avoid"),
+            **select_attributes(ABOUT[self.method], "title limitations"),
             "refusal": self.refusal or None,
-            **select_attributes(self, "seconds held_out_error farthest remarks"),
+            **select_attributes(self, "seconds held_out_error largest_shift notes"),
             "fit": None if self.fit is None else self.fit.to_json(),
         }
 
@@ -106,7 +106,7 @@ def compare_methods(
         missed = compute_held_out_error(held_out, fit.beta) if fit and held_out else None
         farthest = max(apart, key=lambda pair: pair[1], default=None)
         notes = fit.estimator_notes if fit else ()
-        remarks = notes or (f"not {ABOUT[method].avoid}",)
+        remarks = notes or (f"not {ABOUT[method].limitations}",)
         results.append(MethodResult(method, fit, refusal, seconds, missed, farthest, remarks))
         if progress is not None:
             progress(count / len(methods))

@@ -305,15 +305,15 @@ class PersistentExcitation:
         joint: name.
         configurations: at which it moved alone.
         singular_values: of Phi, those that are 0 left out, largest first.
-        possible_rank: of Phi at ever so many configurations.
-        usual_ratio: last of the singular values over the first at ever so many configurations.
+        max_rank: of Phi at ever so many configurations.
+        typical_ratio: last of the singular values over the first at ever so many configurations.
     """
 
     joint: str
     configurations: int
     singular_values: tuple[float, ...]
-    possible_rank: int
-    usual_ratio: float
+    max_rank: int
+    typical_ratio: float
 
     @property
     def rank(self) -> int:
@@ -327,21 +327,21 @@ class PersistentExcitation:
         ratio = values[-1] / values[0] if values else 0.0
         return (
             f"J of joint {self.joint} at {self.configurations} configurations: rank "
-            f"{self.rank} of {self.possible_rank}, singular values of Phi {listed} (last "
-            f"{ratio:.2g} of the first; {self.usual_ratio:.2g} at many random ones)"
+            f"{self.rank} of {self.max_rank}, singular values of Phi {listed} (last "
+            f"{ratio:.2g} of the first; {self.typical_ratio:.2g} at many random ones)"
         )
 
     def describe(self) -> str:
         """Returns what to do where it is not persistent."""
         return (
             f"joint {self.joint} moves alone at {self.configurations} configurations, rank "
-            f"{self.rank} of {self.possible_rank} in its inertia: not persistently exciting; move "
-            f"it at {self.possible_rank - self.rank} or more further configurations of the others"
+            f"{self.rank} of {self.max_rank} in its inertia: not persistently exciting; move "
+            f"it at {self.max_rank - self.rank} or more further configurations of the others"
         )
 
     def to_json(self) -> dict[str, Any]:
         """Returns rank and singular values of Phi as plain data."""
-        names = "joint configurations singular_values rank possible_rank usual_ratio"
+        names = "joint configurations singular_values rank max_rank typical_ratio"
         return select_attributes(self, names)
 
 
@@ -485,8 +485,8 @@ class TwoStepFit:
                 }
                 for c in self.steps.configurations
             ],
-            "left_out": dict(self.steps.left_out),
-            "several_moving": self.steps.simultaneous_time,
+            "skipped_logs": dict(self.steps.left_out),
+            "simultaneous_motion_time": self.steps.simultaneous_time,
             "excitation": [excitation.to_json() for excitation in self.excitation],
             "one_step": [parameter.to_json() for parameter in self.one_step.parameters],
         }
@@ -514,7 +514,7 @@ def identify_in_two_steps(
     excitation = compute_excitations(model, observation, steps)
     estimate, equations = steps.estimate, build_base_equations(observation)
     essential = select_essential_parameters(steps.data, estimate, "ordinary", below)
-    notes = [e.describe() for e in excitation if e.rank < e.possible_rank]
+    notes = [e.describe() for e in excitation if e.rank < e.max_rank]
     notes += [dropped.describe() for dropped in estimate.rank.dropped_columns]
     result = build_result(
         equations,

@@ -117,13 +117,13 @@ def find_lack_of_fit(result: FitResult) -> list[DataWarning]:
 def check_motion_noise(observation: Observation) -> list[DataWarning]:
     """Returns a warning if the predicted torque is noise even behind the lowest filters."""
     bands = observation.report.bands
-    if bands.trembling_left <= REGRESSION.max_chatter_ratio:
+    if bands.chatter_ratio_filtered <= REGRESSION.max_chatter_ratio:
         return []
     line = (
         f"above {bands.parallel_cutoff:g} Hz, the lowest cut-off that the motion allows, the "
-        f"predicted torque has {bands.trembling_left:.2g} times the high-frequency content of the "
-        "measured one: values may be biased towards zero; run `modeler diagnose`, move farther and "
-        "faster, or measure positions more finely"
+        f"predicted torque has {bands.chatter_ratio_filtered:.2g} times the high-frequency content "
+        "of the measured one: values may be biased towards zero; run `modeler diagnose`, move "
+        "farther and faster, or measure positions more finely"
     )
     return [DataWarning(line, affects_values=True)]
 
@@ -368,7 +368,7 @@ def judge_fit(
             warnings += find_unexplained_joints(result, seen, scale)
         share = _estimate_systematic_share(equations, rows, result)
         warnings += find_systematic_residuals(result, share)
-        for line in result.contradicted:
+        for line in result.prior_conflicts:
             joints = (j.name for j in result.joints if line.startswith(f"joint {j.name}: "))
             warnings.append(DataWarning(line, affects_values=True, joints=tuple(joints)))
         spread = _compute_spread(data, result)
@@ -383,8 +383,10 @@ def judge_fit(
     by_joint = _judge_joints([*warnings, *result.joint_warnings], result, seen, worst)
     verdict = dataclasses.replace(
         _write_verdict(warnings, by_joint, _describe_prediction(equations, rows, result, seen)),
-        unseen=tuple(warning.line for warning in log_warnings if warning.is_undetectable),
-        possible=possible,
+        undetectable_faults=tuple(
+            warning.line for warning in log_warnings if warning.is_undetectable
+        ),
+        physically_consistent=possible,
     )
     directions = compute_friction_by_direction(model.spec, result)
     return dataclasses.replace(result, verdict=verdict, directions=directions)

@@ -140,16 +140,16 @@ class Clearance(ShortRepr):
     Attributes:
         solids: of the robot, without pairs that are left out.
         margin: least distance, m.
-        left_out: pairs that are not looked at, and why.
+        excluded_pairs: pairs that are not looked at, and why.
     """
 
     solids: CollisionGeometry
     margin: float
-    left_out: tuple[tuple[str, str, str], ...] = ()
+    excluded_pairs: tuple[tuple[str, str, str], ...] = ()
 
     def format_line(self, near: ClosestApproach | None) -> str:
         """Formats what a motion keeps of it."""
-        out = ", ".join(f"{a} and {b} ({why})" for a, b, why in self.left_out)
+        out = ", ".join(f"{a} and {b} ({why})" for a, b, why in self.excluded_pairs)
         excluded_text = f"; not looked at: {out}" if out else ""
         if near is None:
             return f"no two links or planes are looked at{excluded_text}"
@@ -163,8 +163,8 @@ class Clearance(ShortRepr):
         """Returns the clearance, and what is nearest in a motion, as plain data."""
         return {
             "margin": self.margin,
-            "left_out": [list(each) for each in self.left_out],
-            "nearest": None if near is None else near.to_json(),
+            "excluded_pairs": [list(each) for each in self.excluded_pairs],
+            "closest_approach": None if near is None else near.to_json(),
         }
 
     def compute_shares(self, compiled: "CompiledModel", q: np.ndarray) -> np.ndarray:
@@ -467,7 +467,7 @@ def build_posture_limits(compiled: "CompiledModel", bounds: MotionBounds) -> Pos
     plain = PostureLimits(compiled, bounds)
     if closure is None or bounds.home is None:
         return plain
-    driven = set(closure.given)
+    driven = set(closure.actuated)
     units = [(i, unit) for i, unit in enumerate(closure.units) if i not in driven]
     places = [np.array([i for i, unit in units if unit == kind]) for kind in ("rad", "m")]
     kinds = tuple(group for group in places if len(group))
@@ -489,7 +489,7 @@ class LimitExcess(ShortRepr):
 
     Attributes:
         joint: name.
-        what: "position" | "speed" | "acceleration" | "speed at the start" | "speed at the end".
+        quantity: "position" | "speed" | "acceleration" | "speed at the start" | "speed at the end".
         time: s, from the first sample on.
         value, limit: SI.
         unit: of them.
@@ -497,7 +497,7 @@ class LimitExcess(ShortRepr):
     """
 
     joint: str
-    what: str
+    quantity: str
     time: float
     value: float
     limit: float
@@ -510,15 +510,15 @@ class LimitExcess(ShortRepr):
         if self.step is not None:
             distance, seconds = self.step
             step = f" ({distance:.3g} {self.unit.partition('/')[0]} in {1e3 * seconds:.3g} ms)"
-        expected = "expected rest" if "speed at" in self.what else f"limit {self.limit:.4g}"
+        expected = "expected rest" if "speed at" in self.quantity else f"limit {self.limit:.4g}"
         return (
-            f"joint {self.joint}, {self.time:.4g} s: {self.what} {self.value:.4g} {self.unit}"
+            f"joint {self.joint}, {self.time:.4g} s: {self.quantity} {self.value:.4g} {self.unit}"
             f"{step}, {expected}"
         )
 
     def to_json(self) -> dict[str, object]:
         """Returns the excess over the limit as plain data."""
-        return select_attributes(self, "joint what time value limit unit")
+        return select_attributes(self, "joint quantity time value limit unit")
 
 
 def find_exceeded_limits(
@@ -580,5 +580,5 @@ def find_exceeded_limits(
         check_limit("acceleration", time[1:], change, acceleration, "/s2", digit / step)
     for end, at, value in (("start", time[:1], v[:1]), ("end", time[-1:], v[-1:])):
         check_limit(f"speed at the {end}", at, value, acceleration * k * step, "/s", slacks[0])
-    first = {(each.joint, each.what): each for each in reversed(excesses)}
+    first = {(each.joint, each.quantity): each for each in reversed(excesses)}
     return sorted(first.values(), key=lambda each: each.time)

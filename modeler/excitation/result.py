@@ -122,10 +122,10 @@ class ExcitingMotion(Result):
         usage: of the limits.
         columns: names of the parameters that count.
         beta: (c,) for torques; None where unknown.
-        ended_early: True if the time limit ended the search.
+        has_ended_early: True if the time limit ended the search.
         seconds: that it took.
         closest_approach: where links come closest; None where they are not looked at.
-        gain: what it adds to logs; None without.
+        information_gain: what it adds to logs; None without.
     """
 
     robot: str
@@ -140,10 +140,10 @@ class ExcitingMotion(Result):
     usage: LimitUsage
     columns: tuple[str, ...]
     beta: np.ndarray | None
-    ended_early: bool
+    has_ended_early: bool
     seconds: float
     closest_approach: ClosestApproach | None = None
-    gain: InformationGain | None = None
+    information_gain: InformationGain | None = None
 
     def sample_motion(self, rate: float) -> dict[str, np.ndarray]:
         """Samples time, q, qd and qdd of every joint, from rest to rest, by name."""
@@ -193,9 +193,9 @@ class ExcitingMotion(Result):
             )
         if b.clearance is not None:
             lines.append(b.clearance.format_line(self.closest_approach))
-        if self.ended_early:
+        if self.has_ended_early:
             lines.append("the time limit ended the search: another run may find another motion")
-        return [*lines, *(self.gain.format_lines() if self.gain else [])]
+        return [*lines, *(self.information_gain.format_lines() if self.information_gain else [])]
 
     def to_json(self) -> dict[str, Any]:
         """Returns the motion's quality and its use of the limits as plain data."""
@@ -213,8 +213,8 @@ class ExcitingMotion(Result):
             "condition_number": self.quality.condition_raw,
             "condition_scaled": self.quality.condition,
             "log_det": self.quality.log_det,
-            "random": {
-                "motions": self.random_count,
+            "random_motions": {
+                "count": self.random_count,
                 "condition_scaled_best": self.random[0],
                 "condition_scaled_median": self.random[1],
                 "log_det_best": self.random_log_det,
@@ -225,8 +225,10 @@ class ExcitingMotion(Result):
             "posture_share": u.posture,
             "singular_share": u.loops,
             "clearance": b.clearance and b.clearance.to_json(self.closest_approach),
-            "ended_early": self.ended_early,
-            "next": None if self.gain is None else self.gain.to_json(),
+            "has_ended_early": self.has_ended_early,
+            "information_gain": None
+            if self.information_gain is None
+            else self.information_gain.to_json(),
             "series": export_coefficients(self.series, self.x, b.joints),
         }
 
@@ -255,7 +257,7 @@ def _build_usage_json(
     most = float(limit) if np.isfinite(limit) else None
     value = None if used is None else float(used)
     slack = None if most is None or value is None else value - most if least else most - value
-    return {"limit": most, "used": value, "slack": slack}
+    return {"limit": most, "value": value, "slack": slack}
 
 
 def _format_range(low: float, high: float) -> str:

@@ -412,7 +412,7 @@ def build_result(
         usage=compute_usage(task, x),
         columns=tuple(spec.base[k].name for k in task.column_indices),
         beta=task.beta,
-        ended_early=early,
+        has_ended_early=early,
         seconds=deadline.get_elapsed(),
         closest_approach=near,
     )

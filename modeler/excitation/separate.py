@@ -90,7 +90,7 @@ class Discrimination:
     def to_json(self) -> dict[str, Any]:
         """Returns what distinguishes the two effects, by effect, as plain data."""
         return {
-            name: {"left": a, "left_random": b, "gain": c}
+            name: {"unexplained_share": a, "random_share": b, "gain": c}
             for name, a, b, c in zip(
                 self.names, self.unexplained_share, self.random_share, self.gain, strict=True
             )
@@ -270,15 +270,15 @@ class MotionSubset:
         places: of those chosen, in the order given.
         condition: of their rows together, columns of length one.
         whole: of all motions together.
-        alone: of each motion by itself.
-        exhaustive: True if every subset was looked at.
+        single_conditions: of each motion by itself.
+        is_exhaustive: True if every subset was looked at.
     """
 
     places: tuple[int, ...]
     condition: float
     whole: float
-    alone: tuple[float, ...]
-    exhaustive: bool
+    single_conditions: tuple[float, ...]
+    is_exhaustive: bool
 
 
 def choose_motions(rows: Sequence[np.ndarray], count: int) -> MotionSubset:

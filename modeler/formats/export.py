@@ -565,7 +565,7 @@ def _find_too_small(values: Iterable[Value], to: str) -> Iterator[str]:
     bodies: dict[str, list[float]] = {}
     for value in values:
         if value.quantity in TENSOR:
-            bodies.setdefault(value.part, []).append(value.now)
+            bodies.setdefault(value.part, []).append(value.after)
     small = [
         name
         for name, six in bodies.items()

@@ -39,21 +39,23 @@ class LostEffect(ShortRepr):
         joint: row; "" of gravity.
         values: by name, SI.
         share: of the torque; None of a robot, or where it is not reported.
-        of: "joint 2", or "all torques" of shares that C computes.
+        share_of: "joint 2", or "all torques" of shares that C computes.
     """
 
     effect: str
     joint: str
     values: dict[str, float]
     share: float | None = None
-    of: str = ""
+    share_of: str = ""
 
     @property
     def summary_line(self) -> str:
         """Returns the effect, its values and its share of the torque as a line."""
         values = ", ".join(f"{name} = {value:.4g}" for name, value in self.values.items())
         share_text = (
-            "" if self.share is None else f", about {format_percent(self.share, 2)} of {self.of}"
+            ""
+            if self.share is None
+            else f", about {format_percent(self.share, 2)} of {self.share_of}"
         )
         where = f" of joint {self.joint}" if self.joint else ""
         return f"{self.effect or 'parameter'}{where} ({values}){share_text}"
@@ -144,19 +146,19 @@ class Value(ShortRepr):
         part: link or joint.
         quantity: one of `QUANTITIES`, or damping, friction, armature, stiffness.
         unit: SI.
-        was: in the original, or in the robot file; None if nowhere.
-        now: written.
+        before: in the original, or in the robot file; None if nowhere.
+        after: written.
         sigma: its standard deviation; None of a robot.
-        changed: False where the number is the one that was there, but for rounding.
+        is_changed: False where the number is the one that was there, but for rounding.
     """
 
     part: str
     quantity: str
     unit: str
-    was: float | None
-    now: float
+    before: float | None
+    after: float
     sigma: float | None
-    changed: bool
+    is_changed: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,7 +168,7 @@ class Exported(Result):
     Attributes:
         robot: name.
         format: one of `FORMATS`.
-        like: the original whose numbers were replaced; "" of a file of its own.
+        template: the original whose numbers were replaced; "" of a file of its own.
         data: the file.
         values: its numbers.
         not_held: effects that it has no place for.
@@ -178,7 +180,7 @@ class Exported(Result):
 
     robot: str
     format: str
-    like: str
+    template: str
     data: bytes
     values: tuple[Value, ...]
     lost_effects: tuple[LostEffect, ...]
@@ -192,10 +194,10 @@ class Exported(Result):
         return {
             "robot": self.robot,
             "format": self.format,
-            "like": self.like or None,
-            "moved_sigmas": self.shift_in_sigmas,
+            "template": self.template or None,
+            "shift_in_sigmas": self.shift_in_sigmas,
             "values": [vars(value) for value in self.values],
-            "not_held": [vars(lost) for lost in self.lost_effects],
+            "lost_effects": [vars(lost) for lost in self.lost_effects],
             "notes": list(self.notes),
             "functions": dict(self.functions),
             "files": sorted(self.files),
@@ -287,7 +289,7 @@ def insert_comment(data: bytes, exported: Exported) -> bytes:
     lines += [
         _format_line(value)
         for value in exported.values
-        if _is_visible_change(value) or not exported.like
+        if _is_visible_change(value) or not exported.template
     ]
     lines += [
         f"not held by {exported.format.upper()}: {lost.summary_line}"
@@ -305,13 +307,15 @@ def insert_comment(data: bytes, exported: Exported) -> bytes:
 
 def _is_visible_change(value: Value) -> bool:
     """Whether a number differs in the digits that are shown."""
-    return value.changed and (value.was is None or f"{value.was:.6g}" != f"{value.now:.6g}")
+    return value.is_changed and (
+        value.before is None or f"{value.before:.6g}" != f"{value.after:.6g}"
+    )
 
 
 def _format_line(value: Value) -> str:
-    was = "none" if value.was is None else f"{value.was:.6g}"
+    was = "none" if value.before is None else f"{value.before:.6g}"
     sigma = "" if value.sigma is None else f" +- {value.sigma:.2g}"
-    return f"{value.part} {value.quantity}: {value.now:.6g}{sigma} {value.unit}, was {was}"
+    return f"{value.part} {value.quantity}: {value.after:.6g}{sigma} {value.unit}, was {was}"
 
 
 def _format_title(exported: Exported) -> str:
@@ -320,12 +324,12 @@ def _format_title(exported: Exported) -> str:
 
 
 def _format_summary(exported: Exported) -> str:
-    changed = sum(value.changed for value in exported.values)
-    change_text = f" like {exported.like}: {changed} of {len(exported.values)} numbers changed"
+    changed = sum(value.is_changed for value in exported.values)
+    change_text = f" like {exported.template}: {changed} of {len(exported.values)} numbers changed"
     first = f"{exported.robot} as {_format_title(exported)}"
     first += (
         change_text
-        if exported.like
+        if exported.template
         else f": {len(exported.values)} numbers" * bool(exported.values)
     )
     first += f"{',' if exported.values else ':'} {len(exported.functions)} functions" * bool(
@@ -338,7 +342,7 @@ def _format_summary(exported: Exported) -> str:
 
 
 def _build_values_table(exported: Exported, values: Iterable[Value]) -> Table:
-    rows = [(v.part, v.quantity, v.was, v.now, v.sigma, v.unit) for v in values]
+    rows = [(v.part, v.quantity, v.before, v.after, v.sigma, v.unit) for v in values]
     head = "part, quantity, was, is, sigma, unit"
     return Table.build(f"{exported.robot}: numbers of the file", head, rows)
 
@@ -350,7 +354,7 @@ def _build_lost_table(exported: Exported) -> Table:
             one.joint,
             ", ".join(f"{n} = {x:.4g}" for n, x in one.values.items()),
             one.share,
-            one.of,
+            one.share_of,
         )
         for one in exported.lost_effects
     ]
@@ -366,7 +370,7 @@ def _list_tables(exported: Exported) -> dict[str, Callable[[], Table]]:
         "changed": lambda: _build_values_table(
             exported, filter(_is_visible_change, exported.values)
         ),
-        "not held": lambda: _build_lost_table(exported),
+        "lost effects": lambda: _build_lost_table(exported),
         "functions": lambda: Table.build(f"{exported.robot}: functions", head, functions),
     }
 
@@ -374,7 +378,10 @@ def _list_tables(exported: Exported) -> dict[str, Callable[[], Table]]:
 register_presentations(
     {
         Exported: Presentation(
-            "a file for another program", _format_summary, _list_tables, page=("values", "not held")
+            "a file for another program",
+            _format_summary,
+            _list_tables,
+            page=("values", "lost effects"),
         )
     }
 )

@@ -254,7 +254,7 @@ class _NumberEditor:
         joint = physics.robot.get_joint(row)
         values = list(build_drive_values(physics, joint, name, self.source.format, was))
         for value in values:
-            if value.changed:
+            if value.is_changed:
                 self._edit_resistance(name, value)
         return values
 
@@ -266,7 +266,7 @@ class _NumberEditor:
             )
         element, path = self._find_element("joint", name), self.paths[value.quantity]
         _, *further = get_text_at(element, path).split() or [""]  # of a polynomial
-        self.file.set_number(element, path, " ".join([format_numbers([value.now]), *further]))
+        self.file.set_number(element, path, " ".join([format_numbers([value.after]), *further]))
 
     def _find_element(self, kind: str, name: str) -> Element:
         if (kind, name) not in self.elements:

@@ -202,19 +202,19 @@ class KnownAgainstFit:
 
     Attributes:
         letter: parameter.
-        given, given_sigma: as known.
-        implied, implied_sigma: as it follows.
+        known_value, known_sigma: as known.
+        implied_value, implied_sigma: as it follows.
         z: (given - implied) / standard deviation of the difference.
-        contradicts: True if |z| is significant.
+        is_contradictory: True if |z| is significant.
     """
 
     letter: str
-    given: float
-    given_sigma: float
-    implied: float
+    known_value: float
+    known_sigma: float
+    implied_value: float
     implied_sigma: float
     z: float
-    contradicts: bool
+    is_contradictory: bool
 
 
 def check_known(
@@ -265,20 +265,20 @@ class CadRow:
 
     Attributes:
         name: base parameter or coefficient.
-        identified, sigma: of the fit.
-        cad, cad_sigma: from the CAD values and their tolerances.
+        identified_value, sigma: of the fit.
+        cad_value, cad_sigma: from the CAD values and their tolerances.
         z: (identified - cad) / standard deviation of the difference.
-        suspicious: |z| is significant.
+        is_suspicious: |z| is significant.
         letters: parameters that it depends on.
     """
 
     name: str
-    identified: float
+    identified_value: float
     sigma: float
-    cad: float
+    cad_value: float
     cad_sigma: float
     z: float
-    suspicious: bool
+    is_suspicious: bool
     letters: tuple[str, ...]
 
 
@@ -288,17 +288,17 @@ class Explanation:
 
     Attributes:
         letters: one or two parameters.
-        cad: their CAD values.
-        fitted: the values that agree best with the fit.
+        cad_values: their CAD values.
+        fitted_values: the values that agree best with the fit.
         chi_squared: what is left, in as many degrees of freedom as rows less letters.
-        enough: chi^2 left is what noise leaves.
+        is_sufficient: chi^2 left is what noise leaves.
     """
 
     letters: tuple[str, ...]
-    cad: tuple[float, ...]
-    fitted: tuple[float, ...]
+    cad_values: tuple[float, ...]
+    fitted_values: tuple[float, ...]
     chi_squared: float
-    enough: bool
+    is_sufficient: bool
 
 
 @dataclass(frozen=True)
@@ -309,8 +309,8 @@ class CadComparison:
         rows: all quantities that can be compared, most significant first.
         limit: |z| from which a row is suspicious.
         chi_squared: of all rows, correlations counted.
-        left_out: {quantity: why it is not compared}.
-        implicated: parameters that enter suspicious rows and no good one.
+        not_compared: {quantity: why it is not compared}.
+        implicated_parameters: parameters that enter suspicious rows and no good one.
         explanations: best first; if no change of one or two entries is enough, the best single
             one; empty if nothing is suspicious.
     """
@@ -318,14 +318,14 @@ class CadComparison:
     rows: tuple[CadRow, ...]
     limit: float
     chi_squared: float
-    left_out: Mapping[str, str]
-    implicated: tuple[str, ...]
+    not_compared: Mapping[str, str]
+    implicated_parameters: tuple[str, ...]
     explanations: tuple[Explanation, ...]
 
     @property
     def suspicious(self) -> tuple[CadRow, ...]:
         """Returns the rows that do not agree."""
-        return tuple(row for row in self.rows if row.suspicious)
+        return tuple(row for row in self.rows if row.is_suspicious)
 
 
 def compare_cad(
@@ -360,8 +360,8 @@ def compare_cad(
     compared = [i for i, name in enumerate(system.data) if name not in left_out]
     problem = _CadProblem(system, compared, np.asarray(data), covariance, cad, sigmas or {})
     rows = problem.build_rows(covariance, depends)
-    bad = {x for row in rows if row.suspicious for x in row.letters}
-    good = {x for row in rows if not row.suspicious for x in row.letters}
+    bad = {x for row in rows if row.is_suspicious for x in row.letters}
+    good = {x for row in rows if not row.is_suspicious for x in row.letters}
     return CadComparison(
         tuple(rows),
         compute_z_limit(len(compared)),
@@ -499,9 +499,11 @@ def _find_explanations(
             chi = problem.compute_chi_squared(point)
             cad, new = tuple(problem.start[at].tolist()), tuple(point[at].tolist())
             explanations.append(Explanation(group, cad, new, chi, chi <= bound))
-        explanations.sort(key=lambda e: (not e.enough, len(e.letters), e.chi_squared, e.letters))
-        if explanations and explanations[0].enough:
-            return tuple(e for e in explanations if e.enough)[:most]
+        explanations.sort(
+            key=lambda e: (not e.is_sufficient, len(e.letters), e.chi_squared, e.letters)
+        )
+        if explanations and explanations[0].is_sufficient:
+            return tuple(e for e in explanations if e.is_sufficient)[:most]
     return tuple(explanations[:1])
 
 

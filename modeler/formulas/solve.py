@@ -466,7 +466,7 @@ def serialise_solution(solution: ClosedSolution, verified: Mapping[str, int] | N
         "robot": system.robot,
         "from": system.source,
         "coefficients": list(system.map_lines),
-        "known": list(solution.known),
+        "known_parameters": list(solution.known),
         "lengths": dict(system.constants),
         "abbreviations": dict(system.abbreviations),
         "formulas": [
@@ -477,12 +477,12 @@ def serialise_solution(solution: ClosedSolution, verified: Mapping[str, int] | N
             }
             for step in solution.steps
         ],
-        "undetermined": list(solution.undetermined),
+        "undetermined_parameters": list(solution.undetermined),
         "without_formula": list(solution.without_formula),
-        "missing": solution.missing,
-        "surplus": solution.surplus,
+        "missing_count": solution.missing,
+        "redundant_count": solution.surplus,
         "without_effect": list(system.vanishing),
-        "verified": dict(verified) if verified else None,
+        "verification": dict(verified) if verified else None,
     }
 
 

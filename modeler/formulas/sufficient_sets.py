@@ -140,11 +140,11 @@ class KnownSets(ShortRepr):
         system: data and parameters.
         size: number of known parameters.
         smallest: the least number that suffices: parameters - rank.
-        possible: number of sets of that size.
+        candidate_count: number of sets of that size.
         count: number of those that suffice.
         classes: {(masses and lengths, centres, inertias): how many of them}, rotor inertias with
             the lengths; fewest inertias first, then fewest centres.
-        easiest: sets of the easiest class, in order of letters.
+        easiest_sets: sets of the easiest class, in order of letters.
         contains: {letter: number of sufficing sets that contain it}.
         seeds: of the random points, which agree.
     """
@@ -152,10 +152,10 @@ class KnownSets(ShortRepr):
     system: PhysicalSystem
     size: int
     smallest: int
-    possible: int
+    candidate_count: int
     count: int
     classes: Mapping[tuple[int, int, int], int]
-    easiest: tuple[tuple[str, ...], ...]
+    easiest_sets: tuple[tuple[str, ...], ...]
     contains: Mapping[str, int]
     seeds: tuple[int, ...]
 
@@ -345,16 +345,16 @@ class RatedSet:
     """How errors grow with one set of known parameters.
 
     Attributes:
-        known: the set.
-        middle: median over the parameters that follow: per cent of error, root mean square, for
-            independent errors of 1 % in every identified quantity and every known parameter.
-        worst: the largest.
+        known_parameters: the set.
+        median_error: median over the parameters that follow: per cent of error, root mean square,
+            for independent errors of 1 % in every identified quantity and every known parameter.
+        largest_error: the largest.
         letter: whose that is.
     """
 
-    known: tuple[str, ...]
-    middle: float
-    worst: float
+    known_parameters: tuple[str, ...]
+    median_error: float
+    largest_error: float
     letter: str
 
 
@@ -388,4 +388,4 @@ def rate_sets(
         k = int(np.nanargmax(share))
         middle, letter = float(np.nanmedian(share)), system.names[U[k]]
         ratings.append(RatedSet(tuple(known), middle, float(share[k]), letter))
-    return tuple(sorted(ratings, key=lambda r: (r.middle, r.worst)))
+    return tuple(sorted(ratings, key=lambda r: (r.median_error, r.largest_error)))

@@ -52,13 +52,13 @@ class Stream:
         name: as `topic` takes it.
         kind: of what it holds: the type of its messages.
         rows: how many.
-        clock: True if its rows are those of the columns.
+        is_clock: True if its rows are those of the columns.
     """
 
     name: str
     kind: str
     rows: int
-    clock: bool = False
+    is_clock: bool = False
 
 
 @dataclass(frozen=True)

@@ -48,9 +48,9 @@ class Clock:
         column: in the file.
         rate: Hz, by the median step; NaN where most steps are 0.
         jitter: standard deviation of the steps without gaps, as a share of the median.
-        gaps: steps of more than 1.5 usual ones; `lost` rows would fit into them.
-        largest: gap, s; `at`: s, where it begins, NaN without any.
-        repeated: steps of 0; `back`: steps to an earlier time.
+        gaps: steps of more than 1.5 usual ones; `lost_rows` rows would fit into them.
+        largest_gap: gap, s; `at`: s, where it begins, NaN without any.
+        repeated_steps: of 0; `backward_steps`: to an earlier time.
         duration: s.
         tick: s; what the steps differ by at least, 0 if they lie on no grid.
     """
@@ -59,11 +59,11 @@ class Clock:
     rate: float
     jitter: float
     gaps: int
-    lost: int
-    largest: float
-    at: float
-    repeated: int
-    back: int
+    lost_rows: int
+    largest_gap: float
+    largest_gap_start: float
+    repeated_steps: int
+    backward_steps: int
     duration: float
     tick: float
 
@@ -74,23 +74,23 @@ class Channel:
 
     Attributes:
         name: as the user knows it: `pos[2] (q2)`.
-        unit: stated or guessed, "" if nobody knows; `guessed` says which.
+        unit: stated or guessed, "" if nobody knows; `is_unit_guessed` says which.
         low, high: of the values, in that unit; NaN without any.
-        missing: rows without value.
+        missing_rows: rows without value.
         resolution: smallest step between values, 0 if there is no grid.
         limits: values at which it stays, with the share of rows: saturation.
-        constant: True if it never changes.
+        is_constant: True if it never changes.
     """
 
     name: str
     unit: str
-    guessed: bool
+    is_unit_guessed: bool
     low: float
     high: float
-    missing: int
+    missing_rows: int
     resolution: float
     limits: tuple[tuple[float, float], ...]
-    constant: bool
+    is_constant: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,8 +122,8 @@ class LogInspection(Result):
         streams: topics or groups.
         notes: of reading.
         warnings: what contradicts itself or looks like another unit.
-        suggested: a [log] to paste, guessed; "" if a mapping is there already.
-        suggested_without_ranges: the same without what ranges say of positions.
+        suggested_map: a [log] to paste, guessed; "" if a mapping is there already.
+        suggested_map_without_ranges: the same without what ranges say of positions.
         range_warnings: warnings about positions that rest on their range alone.
         time: (n,) s, or row numbers without a clock; of a long log at the extremes of each block.
         steps: (2, m) times, and steps of the clock up to them, s; of a long log the extremes.
@@ -139,8 +139,8 @@ class LogInspection(Result):
     streams: tuple[Stream, ...]
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
-    suggested: str
-    suggested_without_ranges: str
+    suggested_map: str
+    suggested_map_without_ranges: str
     range_warnings: tuple[str, ...]
     time: np.ndarray
     steps: np.ndarray
@@ -162,8 +162,8 @@ class LogInspection(Result):
                 ],
                 "streams": [dataclasses.asdict(stream) for stream in self.streams],
                 "notes": list(self.notes),
-                "doubts": list(self.warnings),
-                "suggested": self.suggested,
+                "warnings": list(self.warnings),
+                "suggested_map": self.suggested_map,
             }
         )
 
@@ -224,20 +224,20 @@ def inspect_table(
             Channel(
                 name=table.format_name(name),
                 unit=stated or units.get(name, ""),
-                guessed=not stated and name in units,
+                is_unit_guessed=not stated and name in units,
                 low=low,
                 high=high,
-                missing=missing,
+                missing_rows=missing,
                 resolution=estimate_lattice_step(v),
                 limits=limits,
-                constant=low == high,
+                is_constant=low == high,
             )
         )
     notes, pairs = (*table.reading_notes, *table.notes), pair_speeds(guesses)
     if every is not None:
         notes = (*notes, _TOLD.format(rows, len(time)))
     coarse = ""
-    if clock is not None and clock.repeated and every is None:
+    if clock is not None and clock.repeated_steps and every is None:
         others = (v for name, v in values.items() if table.format_name(name) != clock.column)
         coarse = describe_coarse_clock(time, others)
     doubts = [
@@ -252,7 +252,7 @@ def inspect_table(
     still = [
         channel.name
         for channel, name in zip(channels, shown, strict=True)
-        if channel.constant and not (name in rest and channel.low == 0.0)
+        if channel.is_constant and not (name in rest and channel.low == 0.0)
     ]
     if still:
         verb = "never changes: is it" if len(still) == 1 else "never change: are they"
@@ -438,9 +438,9 @@ def _merge_clocks(seen: Clock, clocks: Sequence[Clock], time: np.ndarray) -> Clo
     duration = float(np.nanmax(time) - np.nanmin(time))
     sums = {
         name: sum(getattr(clock, name) for clock in clocks)
-        for name in ("gaps", "lost", "repeated", "back")
+        for name in ("gaps", "lost_rows", "repeated_steps", "backward_steps")
     }
-    widest = max(clocks, key=lambda clock: clock.largest)
+    widest = max(clocks, key=lambda clock: clock.largest_gap)
     jitters = [clock.jitter**2 for clock in clocks if np.isfinite(clock.jitter)] or [np.nan]
     jitter = float(np.sqrt(np.mean(jitters)))
     return dataclasses.replace(
@@ -476,11 +476,11 @@ def _measure_clock(
         rate=1.0 / step if step > 0.0 else np.nan,
         jitter=float(np.std(even)) / step if even.size and step > 0.0 else np.nan,
         gaps=int(gaps.size),
-        lost=int(np.sum(np.round(steps[gaps] / step) - 1.0)) if gaps.size else 0,
-        largest=float(steps[widest]) if gaps.size else 0.0,
-        at=float(known[widest]) if gaps.size else np.nan,
-        repeated=int(np.sum(steps == 0.0)),
-        back=int(np.sum(steps < 0.0)),
+        lost_rows=int(np.sum(np.round(steps[gaps] / step) - 1.0)) if gaps.size else 0,
+        largest_gap=float(steps[widest]) if gaps.size else 0.0,
+        largest_gap_start=float(known[widest]) if gaps.size else np.nan,
+        repeated_steps=int(np.sum(steps == 0.0)),
+        backward_steps=int(np.sum(steps < 0.0)),
         duration=float(known.max() - known.min()),
         tick=_find_tick(even, step),
     )
@@ -541,14 +541,16 @@ def _describe_clock(clock: Clock | None, coarse: str) -> list[str]:
     if coarse:
         return [f"{clock.column}: {coarse}"]
     lines = []
-    if clock.back:
-        lines.append(f"{clock.column} decreases in {clock.back} rows: sort or split the log")
-    if clock.repeated:
-        lines.append(f"{clock.column} is repeated in {clock.repeated} rows: delete them")
+    if clock.backward_steps:
+        lines.append(
+            f"{clock.column} decreases in {clock.backward_steps} rows: sort or split the log"
+        )
+    if clock.repeated_steps:
+        lines.append(f"{clock.column} is repeated in {clock.repeated_steps} rows: delete them")
     if clock.gaps:
         lines.append(
             f"{clock.column} has {clock.gaps} gap{'s' * (clock.gaps > 1)}, the widest "
-            f"{clock.largest:.4g} s at {clock.at:.4g} s"
+            f"{clock.largest_gap:.4g} s at {clock.largest_gap_start:.4g} s"
         )
     if clock.jitter > max(THRESHOLDS.max_jitter, clock.tick * clock.rate):
         lines.append(

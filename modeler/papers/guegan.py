@@ -238,7 +238,7 @@ def build_motion_table(
     """
     spec = compiled.spec
     assert spec.closure is not None
-    home = np.array(spec.closure.home)[list(spec.closure.given)]  # where the bars are straight
+    home = np.array(spec.closure.home)[list(spec.closure.actuated)]  # where the bars are straight
     (D,) = (symbol.value for symbol in spec.symbols if symbol.name == "D4")
     lasts = rows / len(spec.joints) / MOTION_RATE / MOTION_RUNS
     cube = [Limits(*compute_cube_range(D, home[0]), v, 10.0 * v) for v in SPEEDS]

@@ -236,6 +236,8 @@ def _build_known_table(paper: Paper, derivation: Derivation) -> MethodTable:
         what, counted = f"sets of {size} from which all others follow", sets.count == expected
         outcome = judge_outcome(counted, Outcome.DERIVED)
         rows.append(
-            MethodRow(what, "-", f"{sets.count} of {sets.possible}", outcome, "our consequence")
+            MethodRow(
+                what, "-", f"{sets.count} of {sets.candidate_count}", outcome, "our consequence"
+            )
         )
     return MethodTable("Physical parameters that must be known", (), tuple(rows))

@@ -129,7 +129,9 @@ def _build_comparison_table(energy: FitResult) -> MethodTable:
     rows = []
     torque, simpson, trapezoid = energy.energy.figures
     for model in (torque, simpson, trapezoid):
-        text = f"condition {model.condition_scaled:.4g}, {model.known} parameters below 10 %"
+        text = (
+            f"condition {model.condition_scaled:.4g}, {model.precise_count} parameters below 10 %"
+        )
         rows.append(MethodRow(model.model, "-", f"{model.rows} rows, {text}", Outcome.SHOWN))
     ratio = simpson.torque_sigma / torque.torque_sigma
     what = "uncertainty of predicted torques, energy over torque"

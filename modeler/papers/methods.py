@@ -39,22 +39,22 @@ class MethodRow:
     """One line of a table that compares a paper's results with ours.
 
     Attributes:
-        what: parameter or figure.
-        printed: by the paper, or "-".
-        ours: of the simulation.
+        quantity: parameter or figure.
+        printed_value: by the paper, or "-".
+        computed_value: of the simulation.
         outcome: "truth recovered" where a simulated machine's value is found, whatever the paper
             measured on its own; "agrees, but not determined" where the truth lies within a sigma
             too large to say so; "holds of both" where a statement is true of two numbers that
             differ; "as derived" where we say what the paper does not, or deny what it says;
             "beside each other" where nothing says that the two must agree.
-        why: what was asked of the line, or a remark.
+        reason: what was asked of the line, or a remark.
     """
 
-    what: str
-    printed: str
-    ours: str
+    quantity: str
+    printed_value: str
+    computed_value: str
     outcome: Outcome
-    why: str = ""
+    reason: str = ""
 
 
 @dataclass(frozen=True)
@@ -63,13 +63,13 @@ class MethodTable:
 
     Attributes:
         title: what it is.
-        setting: what was simulated, one sentence each.
+        settings: what was simulated, one sentence each.
         rows: its lines.
         picture: a figure of the paper, drawn of the simulation.
     """
 
     title: str
-    setting: tuple[str, ...]
+    settings: tuple[str, ...]
     rows: tuple[MethodRow, ...]
     picture: Picture | None = None
 
@@ -122,7 +122,9 @@ def read_quotation(paper: Paper, start: str) -> tuple[float, ...]:
     """
     for line in paper.lines:
         if line.quote.startswith(start):
-            return tuple(float(n.value) for n in read_numbers("; ".join((line.quote, *line.given))))
+            return tuple(
+                float(n.value) for n in read_numbers("; ".join((line.quote, *line.assumptions)))
+            )
     raise RobotError(f'paper {paper.name}: its file quotes nothing that starts with "{start}"')
 
 

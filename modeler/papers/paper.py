@@ -61,54 +61,55 @@ class PrintedLine:
         robot: built-in robot, or one of `Paper.variants`; that of the file's head if it has none.
         place: in the paper: section, equation or table.
         quote: the print; "" if the statement is our consequence.
-        ours: our consequence, in our names; "" if it is printed.
+        consequence: our consequence, in our names; "" if it is printed.
         check: how it is compared: one of `modeler.papers.readings.READINGS`.
-        given: further quotations that it rests on: assumptions, or sums put in.
+        assumptions: further quotations that it rests on: assumptions, or sums put in.
         legs: what stands for i; one line each.
-        gives: what is derived, one expression per number, or the expression of a set.
+        expected: what is derived, one expression per number, or the expression of a set.
         difference: derived minus printed, in our names; "" if they are to be the same.
-        corrected: the quotation as it should read, which must hold.
+        correction: the quotation as it should read, which must hold.
         slip: one of `SLIPS`, where there is a difference.
-        why: reason of the difference, or a remark.
-        of: "M13R = Off13/g - Off13R/g": what a left side is that the robot does not have, in base
-            parameters or in joint variables.
-        through: robot whose base parameters stand on the right side of a relation, leg by leg.
-        strip: ending of names that the robot lacks, a leg that stands alone.
-        seal: fingerprint of a quotation that holds measured numbers.
-        measured: nothing derives its numbers; `gives` says what must hold of them.
+        reason: reason of the difference, or a remark.
+        substitution: "M13R = Off13/g - Off13R/g": what a left side is that the robot does not have,
+            in base parameters or in joint variables.
+        relation_robot: robot whose base parameters stand on the right side of a relation, leg by
+            leg.
+        suffix: ending of names that the robot lacks, a leg that stands alone.
+        checksum: fingerprint of a quotation that holds measured numbers.
+        is_measured: nothing derives its numbers; `gives` says what must hold of them.
     """
 
     robot: str
     place: str
     check: str
     quote: str = ""
-    ours: str = ""
-    given: tuple[str, ...] = ()
+    consequence: str = ""
+    assumptions: tuple[str, ...] = ()
     legs: tuple[str, ...] = ("",)
-    gives: tuple[str, ...] = ()
+    expected: tuple[str, ...] = ()
     difference: str = ""
-    corrected: str = ""
+    correction: str = ""
     slip: str = ""
-    why: str = ""
-    of: str = ""
-    through: str = ""
-    strip: str = ""
-    seal: str = ""
-    measured: bool = False
+    reason: str = ""
+    substitution: str = ""
+    relation_robot: str = ""
+    suffix: str = ""
+    checksum: str = ""
+    is_measured: bool = False
 
     @property
     def text(self) -> str:
         """Returns what is stated: the paper's own words, or else ours."""
-        return self.quote or self.ours
+        return self.quote or self.consequence
 
 
 @dataclass(frozen=True)
 class Variant:
     """A built-in robot with gravity along another axis, or as its virtual tree."""
 
-    of: str
+    robot: str
     gravity: tuple[str, ...] = ()
-    open: bool = False
+    as_tree: bool = False
 
 
 @dataclass(frozen=True)
@@ -154,10 +155,10 @@ def read_paper(name: str) -> Paper:
         # One line, or one for each of `quotes`: quotation -> its seal, or "" without one.
         common = {"robot": document["robot"]} | entry
         quotes = common.pop("quotes", None)
-        seals = [{}] if quotes is None else [{"quote": q, "seal": s} for q, s in quotes.items()]
+        seals = [{}] if quotes is None else [{"quote": q, "checksum": s} for q, s in quotes.items()]
         lines += [_build_line(common | quotation) for quotation in seals]
     coefficients = document.get("coefficients", "")
-    named = [name for line in lines for name in (line.robot, line.through) if name]
+    named = [name for line in lines for name in (line.robot, line.relation_robot) if name]
     robots = dict.fromkeys(named + [coefficients] * bool(coefficients))
     return Paper(
         name=name,
@@ -176,7 +177,7 @@ def read_paper(name: str) -> Paper:
 
 
 def _build_line(entry: Mapping[str, Any]) -> PrintedLine:
-    assert bool(entry.get("quote")) != bool(entry.get("ours")), f"{entry} is quoted or ours"
+    assert bool(entry.get("quote")) != bool(entry.get("consequence")), f"{entry} is quoted or ours"
     assert entry.get("slip", "scan") in SLIPS, f"{entry['slip']} is no slip"
     return build_instance(PrintedLine, entry)
 
@@ -265,9 +266,9 @@ class DerivedRobot:
 
 def derive_robot(name: str, variant: Variant | None = None) -> DerivedRobot:
     """Derives a built-in robot, or a new one that differs from it as `variant` says."""
-    robot = read_robot(name if variant is None else variant.of)
+    robot = read_robot(name if variant is None else variant.robot)
     if variant is not None:
-        robot = replace(robot.open_loops() if variant.open else robot, name=name)
+        robot = replace(robot.open_loops() if variant.as_tree else robot, name=name)
         if variant.gravity:
             x, y, z = (parse_expression(text) for text in variant.gravity)
             robot = replace(robot, gravity=(x, y, z))
@@ -548,12 +549,12 @@ def build_renamer(paper: Paper, line: PrintedLine, leg: str = "") -> Callable[[s
     def rename(name: str) -> str:
         if name.endswith("i") and name != "pi":
             name = name[:-1] + leg
-        if not line.ours:
+        if not line.consequence:
             letters = name[: len(name) - len(name.lstrip(string.ascii_letters))]
             name = paper.names.get(name) or paper.names.get(letters, letters) + name[len(letters) :]
         name = re.sub(r"^([A-Za-z]+\d+)R(\d)$", r"\1\2R", name)
-        if line.strip:
-            name = re.sub(rf"^([A-Za-z]+\d){line.strip}(R?)$", r"\1\2", name)
+        if line.suffix:
+            name = re.sub(rf"^([A-Za-z]+\d){line.suffix}(R?)$", r"\1\2", name)
         return name
 
     return rename

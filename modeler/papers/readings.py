@@ -60,10 +60,10 @@ def _compare_relation(paper: Paper, line: PrintedLine, robots: Robots) -> LineCo
     rename = build_renamer(paper, line, leg)
     puts = _read_assumptions(paper, line)
     printed = read_sum(right, rename, _LEGS[:3])
-    if line.through:
-        printed = replace_names(printed, _expand_leg_relations(robots[line.through], robot))
+    if line.relation_robot:
+        printed = replace_names(printed, _expand_leg_relations(robots[line.relation_robot], robot))
     target = rename(left)
-    left_name, _, combination = line.of.partition(" = ")
+    left_name, _, combination = line.substitution.partition(" = ")
     wanted = read_sum(combination if left_name == target else target, str)
     lost = {name for m in wanted for name, _ in m} - set(robot.relations) - set(robot.standard)
     if lost - set(robot.values) or (left_name != target and target not in robot.relations):
@@ -80,7 +80,7 @@ def _compare_relation(paper: Paper, line: PrintedLine, robots: Robots) -> LineCo
 def _read_assumptions(paper: Paper, line: PrintedLine) -> dict[str, Sum]:
     """What the quotations of `given` put in for a name, for every leg."""
     puts: dict[str, Sum] = {}
-    for text in line.given:
+    for text in line.assumptions:
         left, right = separate_sides(text)
         for leg in _LEGS:
             rename = build_renamer(paper, line, leg)
@@ -105,10 +105,10 @@ def _expand_leg_relations(leg: DerivedRobot, whole: DerivedRobot) -> dict[str, S
 def _compare_numbers(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """Every number of the quotation, in order, against an expression of `gives`."""
     numbers = read_numbers(line.text)
-    if len(numbers) != len(line.gives):
-        raise QuotationError(f"{len(numbers)} numbers are quoted, {len(line.gives)} are derived")
+    if len(numbers) != len(line.expected):
+        raise QuotationError(f"{len(numbers)} numbers are quoted, {len(line.expected)} are derived")
     known = collect_quantities(robots[line.robot])
-    values = [Fraction(evaluate_expression(text, known)) for text in line.gives]
+    values = [Fraction(evaluate_expression(text, known)) for text in line.expected]
     text = ", ".join(str(value) for value in values)
     derived = join_numbers(Amount(value) for value in values)
     return LineComparison(join_numbers(numbers), derived, text)
@@ -123,7 +123,7 @@ def _compare_names(paper: Paper, line: PrintedLine, robots: Robots) -> LineCompa
         rename = build_renamer(paper, line, leg)
         for name in re.findall(r"\b(?!and\b)[A-Za-z][A-Za-z0-9]*", line.text):
             printed[((rename(name), 1),)] = _ONE
-    names = evaluate_expression(line.gives[0], collect_quantities(robots[line.robot]))
+    names = evaluate_expression(line.expected[0], collect_quantities(robots[line.robot]))
     derived: Sum = {((name, 1),): _ONE for name in sorted(names)}
     return LineComparison(printed, derived, ", ".join(sorted(names)))
 
@@ -134,14 +134,14 @@ def _compare_arithmetic(paper: Paper, line: PrintedLine, robots: Robots) -> Line
     Each entry of `gives` is `c = 100*b/abs(a)`, to half a unit of the last digit of c, or a
     comparison that must hold.
     """
-    text = "; ".join((line.text, *line.given))
+    text = "; ".join((line.text, *line.assumptions))
     numbers = {chr(ord("a") + i): n for i, n in enumerate(read_numbers(text))}
     floats: dict[str, Any] = {name: float(number.value) for name, number in numbers.items()}
     known = collect_quantities(robots[line.robot])
     printed: dict[Monomial, Amount] = {}
     derived: dict[Monomial, Amount] = {}
     texts = []
-    for entry in line.gives:
+    for entry in line.expected:
         letter, equal, formula = entry.partition(" = ")
         if equal:
             number = numbers.get(letter)
@@ -160,7 +160,7 @@ def _compare_arithmetic(paper: Paper, line: PrintedLine, robots: Robots) -> Line
             printed[((entry, 1),)] = _ONE
             derived = derived | ({((entry, 1),): _ONE} if holds else {})
             texts.append(f"{entry}: {'yes' if holds else 'no'}")
-    weak = any(re.search("[<>]", entry) for entry in line.gives)
+    weak = any(re.search("[<>]", entry) for entry in line.expected)
     return LineComparison(printed, derived, ", ".join(texts), is_inequality=weak)
 
 
@@ -170,7 +170,9 @@ def _compare_rotation(paper: Paper, line: PrintedLine, robots: Robots) -> LineCo
     The link is the last of `gives`, reached from a base at rest over the rows before it; their
     angles are theta1, theta2, ..., their speeds qd1, qd2, ...; component 1 is called `in1`.
     """
-    components = [expand_to_sum(part) for part in _compute_rotation(robots[line.robot], line.gives)]
+    components = [
+        expand_to_sum(part) for part in _compute_rotation(robots[line.robot], line.expected)
+    ]
     rename = build_renamer(paper, line)
     printed = join_in_order(read_sum(part, rename) for part in line.text.split(";"))
     text = "; ".join(format_sum(part) for part in components)
@@ -181,10 +183,10 @@ def _compare_element(paper: Paper, line: PrintedLine, robots: Robots) -> LineCom
     """`h3^1 = (cos theta2 qd1)^2`: an element (1 to 6) of the row of the last link of `gives`."""
     left, _, right = line.text.partition("=")
     place = re.fullmatch(r"h(\d)\^([1-6])", left.strip())
-    if place is None or int(place.group(1)) != len(line.gives):
-        raise QuotationError(f"got {left.strip()}; expected 1 to 6 of link {len(line.gives)}")
+    if place is None or int(place.group(1)) != len(line.expected):
+        raise QuotationError(f"got {left.strip()}; expected 1 to 6 of link {len(line.expected)}")
     derived = expand_to_sum(
-        _compute_elements(robots[line.robot], line.gives)[int(place.group(2)) - 1]
+        _compute_elements(robots[line.robot], line.expected)[int(place.group(2)) - 1]
     )
     printed = read_sum(right, build_renamer(paper, line))
     return LineComparison(printed, derived, format_sum(derived))
@@ -196,10 +198,10 @@ def _compare_column(paper: Paper, line: PrintedLine, robots: Robots) -> LineComp
     The links are the last two of `gives`; entry 4 is called `in4`, their number `entries`.
     """
     cells = re.fullmatch(r"alpha(\d) = \[([\d ]*)\]\^T", line.text)
-    if cells is None or int(cells[1]) != len(line.gives) - 1:
+    if cells is None or int(cells[1]) != len(line.expected) - 1:
         raise QuotationError(f'"{line.text}" is no column of digits')
     numbers = [int(cell) for cell in cells[2].split()]
-    before, after = (_compute_elements(robots[line.robot], line.gives[:n]) for n in (-1, None))
+    before, after = (_compute_elements(robots[line.robot], line.expected[:n]) for n in (-1, None))
     alike = [int(sympy.expand(part - after[0]) == 0) for part in before]
     alike += [0] * (len(ELEMENTS) - len(alike))
     column_text = f"[{' '.join(map(str, alike))}]^T"
@@ -288,7 +290,7 @@ def _evaluate_text(text: str, names: Mapping[str, Any]) -> Any:
 def _compare_body(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`1/2 [omegak^T Jk omegak + ...]`: `gives` "E" or "U" of a body, from those of its masses."""
     derived_form = {"E": _ENERGY, "U": _HEIGHT.subs(dict(zip(_MS, _M * _S, strict=True)))}[
-        line.gives[0]
+        line.expected[0]
     ]
     names = {"omegak^T": _W.T, "omegak": _W, "Jk": _INERTIA, "Mk": _M, "Vk^T": _V.T, "Vk": _V}
     names |= {"MSk^T": sympy.Matrix(_MS).T, "^0g^T": _G.T, "^0Pk": _P, "^0Ak": _AXES, "^kSk": _S}
@@ -317,7 +319,7 @@ def _compare_recursion(paper: Paper, line: PrintedLine, robots: Robots) -> LineC
     names["^kak"] = sympy.Matrix([0, 0, 1])
     printed, derived = (
         join_in_order(expand_to_sum(eliminate_squared_sines(x)) for x in v)
-        for v in (_evaluate_text(line.text, names), velocities[line.gives[0]])
+        for v in (_evaluate_text(line.text, names), velocities[line.expected[0]])
     )
     return LineComparison(printed, derived, "A^-1 twist A + A^-1 A' of frames k-1 and k")
 
@@ -329,7 +331,7 @@ def _compare_energy(paper: Paper, line: PrintedLine, robots: Robots) -> LineComp
     of inertia come twice. `gives` are the parameters; `ek ... | ...` is a row of E, `uk` one of U.
     """
     energy = _HEIGHT if line.text.startswith("uk ") else _ENERGY
-    energy_terms = {name: expand_to_sum(energy.diff(sympy.Symbol(name))) for name in line.gives}
+    energy_terms = {name: expand_to_sum(energy.diff(sympy.Symbol(name))) for name in line.expected}
     text = re.sub(
         r"\^[0k]([A-Za-z])k?\^T ?\^?[0k]([A-Za-z])k?",
         lambda energy_terms: (
@@ -339,9 +341,9 @@ def _compare_energy(paper: Paper, line: PrintedLine, robots: Robots) -> LineComp
     )
     rename = build_renamer(paper, line)
     cells = [read_sum(cell, rename) for cell in text.split("|")]
-    if len(cells) != len(line.gives):
-        raise QuotationError(f"{len(cells)} elements are quoted, {len(line.gives)} are derived")
-    printed = dict(zip(line.gives, cells, strict=True))
+    if len(cells) != len(line.expected):
+        raise QuotationError(f"{len(cells)} elements are quoted, {len(line.expected)} are derived")
+    printed = dict(zip(line.expected, cells, strict=True))
     derived_text = " | ".join(format_sum(part) for part in energy_terms.values())
     return LineComparison(join_sums(printed), join_sums(energy_terms), derived_text)
 
@@ -352,7 +354,7 @@ def _compare_effort(paper: Paper, line: PrintedLine, robots: Robots) -> LineComp
     Places are "motors", with speeds Jp^-1 V, "leg", Ji^-1 V, and "platform", V. Equal power,
     F'A^-1 V = G'B^-1 V for all V, makes G = B' A'^-1 F: from a leg to the motors Jp' Ji'^-1.
     """
-    here, there, what = line.gives
+    here, there, what = line.expected
     names = {"motors": "Jp", "leg": f"J{what[-1]}"}
     wanted = [names[there]] if there in names else []
     wanted += [f"{names[here]}inv"] if here in names else []
@@ -368,7 +370,7 @@ def _compare_effort(paper: Paper, line: PrintedLine, robots: Robots) -> LineComp
 
 def _compare_digits(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`12`: digits that agree, 12 or more, of a form, "energy" or "kane", and the derivation."""
-    off = robots[line.robot].forms[line.gives[0]][1]
+    off = robots[line.robot].forms[line.expected[0]][1]
     digits = join_numbers([min(12, int(-np.log10(off + 1e-16)))])
     return LineComparison(
         join_numbers(read_numbers(line.text)), digits, f"{off:.0e} of the largest"
@@ -409,8 +411,8 @@ def _compare_tied(paper: Paper, line: PrintedLine, robots: Robots) -> LineCompar
             raise QuotationError(f"{name} is given twice")
         printed[name] = read_sum(right, rename)
     tied = dict(robots[line.robot].dependent_variables)
-    if line.of:
-        left, _, right = line.of.partition("=")
+    if line.substitution:
+        left, _, right = line.substitution.partition("=")
         tied[rename(left.strip())] = replace_names(read_sum(right, rename), tied)
     lost = set(printed) - set(tied)
     if lost:
@@ -436,7 +438,7 @@ def _compare_closure(paper: Paper, line: PrintedLine, robots: Robots) -> LineCom
         rename = build_renamer(paper, line, leg)
         text = _replace_deltas(text, int(leg))
         turn, place = _compute_place(
-            robots[line.robot], line.gives[0].replace("{i}", leg), f"1{leg}"
+            robots[line.robot], line.expected[0].replace("{i}", leg), f"1{leg}"
         )
         if ";" in text:
             printed |= {f"{leg}x{k}": read_sum(x, rename) for k, x in enumerate(text.split(";"))}
@@ -499,7 +501,7 @@ def _compare_platform(paper: Paper, line: PrintedLine, robots: Robots) -> LineCo
 def _compare_matrix(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """Rows of G^T, `1 0 0; 0 1 -1`: G = d(all joints of `gives[1]`) / d(those of `gives[0]`)."""
     tied = robots[line.robot].dependent_variables
-    above, below = line.gives[1].split(), line.gives[0].split()
+    above, below = line.expected[1].split(), line.expected[0].split()
     derived = [[_find_slope(tied[name], by) for name in above] for by in below]
     printed = [[read_sum(cell, str) for cell in row.split()] for row in line.text.split(";")]
     text = "; ".join(" ".join(map(format_sum, row)) for row in derived)
@@ -551,22 +553,22 @@ class CheckedLine:
     Attributes:
         robot: that it is about.
         place: in the paper.
-        printed: the quotation, or our consequence.
-        derived: what is derived.
+        printed_text: the quotation, or our consequence.
+        derived_text: what is derived.
         verdict: how they stand to each other.
         slip: one of `modeler.papers.paper.SLIPS` where the print is known to differ, or "".
-        why: reason of a difference, or a remark.
-        corrected: how it should read, which holds; "" if nothing is stated.
+        reason: reason of a difference, or a remark.
+        correction: how it should read, which holds; "" if nothing is stated.
     """
 
     robot: str
     place: str
-    printed: str
-    derived: str
+    printed_text: str
+    derived_text: str
     verdict: LineVerdict
     slip: str
-    why: str
-    corrected: str = ""
+    reason: str
+    correction: str = ""
 
 
 def check_paper(paper: Paper, derived: Robots) -> list[CheckedLine]:
@@ -593,14 +595,14 @@ def expand_legs(line: PrintedLine) -> list[PrintedLine]:
 def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> CheckedLine:
     """Checks one line of one leg."""
     try:
-        if line.seal and compute_checksum(line) != line.seal:
+        if line.checksum and compute_checksum(line) != line.checksum:
             raise QuotationError("the numbers are not those that were read from the paper")
         comparison = READINGS[line.check](paper, line, derived)
         equal, exact = compare_line(comparison, line)
-        if equal and line.corrected:
-            right = replace(line, quote=line.corrected, difference="")
+        if equal and line.correction:
+            right = replace(line, quote=line.correction, difference="")
             if not compare_line(READINGS[line.check](paper, right, derived), right)[0]:
-                raise QuotationError(f"the corrected form does not hold: {line.corrected}")
+                raise QuotationError(f"the corrected form does not hold: {line.correction}")
     except (QuotationError, ExpressionError, RobotError) as error:
         return _build_checked_line(line, str(error), LineVerdict.DIFFERENT)
     return _build_checked_line(
@@ -611,11 +613,11 @@ def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> CheckedLine:
 def _classify_line(line: PrintedLine, equal: bool, exact: bool, weak: bool) -> LineVerdict:
     if not equal:
         return LineVerdict.DIFFERENT
-    if line.ours:
+    if line.consequence:
         return LineVerdict.OURS
     if line.slip:
         return LineVerdict.MISPRINT
-    if line.measured:
+    if line.is_measured:
         return LineVerdict.MEASURED
     if weak:
         return LineVerdict.CONSISTENT
@@ -625,13 +627,13 @@ def _classify_line(line: PrintedLine, equal: bool, exact: bool, weak: bool) -> L
 def _build_checked_line(line: PrintedLine, derived: str, verdict: LineVerdict) -> CheckedLine:
     leg = line.legs[0] if len(line.legs) == 1 else ""
     place = line.place + (f", i = {leg}" if leg else "")
-    printed = "; ".join((line.text, *line.given))
+    printed = "; ".join((line.text, *line.assumptions))
     return CheckedLine(
-        line.robot, place, printed, derived, verdict, line.slip, line.why, line.corrected
+        line.robot, place, printed, derived, verdict, line.slip, line.reason, line.correction
     )
 
 
 def compute_checksum(line: PrintedLine) -> str:
     """Returns the checksum of the quotation without spaces."""
-    text = "".join("".join((line.quote, *line.given)).split())
+    text = "".join("".join((line.quote, *line.assumptions)).split())
     return f"{zlib.crc32(text.encode()):08x}"

@@ -133,7 +133,7 @@ def _compare_independent(paper: Paper, line: PrintedLine, robots: Robots) -> Lin
 
 def _compare_monomials(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`s2^2; c2 s2; 1`: the monomials of a function in the order of its coefficients."""
-    derived = [at for _, at in _collect_terms(robots[line.robot], line.gives[0])]
+    derived = [at for _, at in _collect_terms(robots[line.robot], line.expected[0])]
     printed = [read_sum(text, str) for text in line.quote.split(";")]
     text = "; ".join(format_sum(part) for part in derived)
     return LineComparison(join_in_order(printed), join_in_order(derived), text)
@@ -143,7 +143,7 @@ def _compare_values(paper: Paper, line: PrintedLine, robots: Robots) -> LineComp
     """A function with numbers for its coefficients, against the list that gives them by name."""
     name, _, text = line.quote.partition(" = ")
     values = {}
-    for entry in ", ".join(line.given).split(","):
+    for entry in ", ".join(line.assumptions).split(","):
         key, _, number = entry.partition("=")
         values[key.strip()] = read_amount(number.strip())
     terms = _collect_terms(robots[line.robot], name)
@@ -180,7 +180,7 @@ def _read_components(text: str) -> dict[str, Sum]:
 
 def _compare_kane(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """Rows of Kane's form, those of `gives`, along unit vectors, `;` between; with g = 1."""
-    formulas = [robots[line.robot].kane[name] for name in line.gives]
+    formulas = [robots[line.robot].kane[name] for name in line.expected]
     printed, derived = (
         join_in_order(join_sums(_read_components(x)) for x in v)
         for v in (line.text.split(";"), formulas)
@@ -200,7 +200,7 @@ def _compare_indices(paper: Paper, line: PrintedLine, robots: Robots) -> LineCom
         free = [x * (letters.count(x) // 2 + 1) for x in "ijk" if letters.count(x) % 2]
         name = re.sub(r"([A-Za-z]+?)[ijk]+\b|[ ()]", r"\1", term)
         printed[name] = read_sum("*".join(free) or "0", str)
-    derived = {name: read_sum("i", str) for name in line.gives}
+    derived = {name: read_sum("i", str) for name in line.expected}
     return LineComparison(join_sums(printed), join_sums(derived), "i in every term")
 
 

@@ -45,8 +45,8 @@ class Processing(ShortRepr):
             later by it.
         edge: seconds left out at both ends of a differentiated piece; None: 2.5 periods of
             `position_cutoff`, where the filter's start-up has faded below 1 %.
-        chosen: names of the cut-offs that were chosen from the logs; what is given rules all that
-            is made of a model.
+        automatic_cutoffs: names of the cut-offs that were chosen from the logs; what is given rules
+            all that is made of a model.
     """
 
     position_cutoff: float | None = None
@@ -60,7 +60,7 @@ class Processing(ShortRepr):
     keep_contradicted: bool = False
     keep_damaged: bool = False
     delay: float = 0.0
-    chosen: tuple[str, ...] = ()
+    automatic_cutoffs: tuple[str, ...] = ()
     repairs: Mapping[str, float] | None = None
 
     def __post_init__(self) -> None:
@@ -133,7 +133,8 @@ def read_processing(raw: Mapping[str, Any]) -> Processing:
     choices = ("position_cutoff", "parallel_cutoff", "speed_floors")
     open_ = any(values.get(name) is None for name in choices)
     try:
-        values["chosen"] = tuple(str(name) for name in values.get("chosen", ()))
+        names = values.get("automatic_cutoffs", ())
+        values["automatic_cutoffs"] = tuple(str(name) for name in names)
         if values.get("speed_floors") is not None:
             values["speed_floors"] = {
                 name: float("inf") if floor is None else float(floor)

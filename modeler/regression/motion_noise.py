@@ -36,45 +36,47 @@ class ChannelNoise(ShortRepr):
     Attributes:
         joint: name.
         unit: of its position, "rad" or "m".
-        of: what was measured of it: "positions", "speeds", "accelerations".
-        moves: False at rest.
+        quantity: what was measured of it: "positions", "speeds", "accelerations".
+        is_moving: False at rest.
         density: one-sided power density of its noise, unit^2/Hz; of speeds (unit/s)^2/Hz.
         deviation: standard deviation of white noise of that density.
-        hides_above_hz: where the noise hides the motion; None if there is too little to show.
+        noise_crossover_hz: where the noise hides the motion; None if there is too little to show.
         step: resolution of what was measured; 0: none.
-        colour: noise grows as f^-colour towards low frequencies; 0 for white.
+        spectral_slope: noise grows as f^-colour towards low frequencies; 0 for white.
         band_hz: of its motion.
         frequency, spectrum: (m,) Hz, and density of what was measured, means over third octaves.
-        torque_of_noise: of the noise at 1 Hz, (N m)^2/Hz; it grows as f^4 (positions) or f^2
+        noise_torque: of the noise at 1 Hz, (N m)^2/Hz; it grows as f^4 (positions) or f^2
             (speeds). None where no fit said it.
         torque_noise: of the torque itself, (N m)^2/Hz.
     """
 
     joint: str
     unit: str
-    of: str
-    moves: bool
+    quantity: str
+    is_moving: bool
     density: float
     deviation: float
-    hides_above_hz: float | None
+    noise_crossover_hz: float | None
     step: float
-    colour: float
+    spectral_slope: float
     band_hz: float
     frequency: tuple[float, ...]
     spectrum: tuple[float, ...]
-    torque_of_noise: float | None = None
+    noise_torque: float | None = None
     torque_noise: float | None = None
 
     @property
     def order(self) -> int:
         """Returns how many derivatives lead from what is measured to the acceleration."""
-        return MEASURED.index(self.of)
+        return MEASURED.index(self.quantity)
 
     @property
     def cutoff(self) -> float:
         """Returns the Hz up to which the measured says more of the motion than of its sensor."""
         least = THRESHOLDS.min_position_bands * self.band_hz
-        return float(np.clip(self.hides_above_hz or np.inf, least, THRESHOLDS.max_position_cutoff))
+        return float(
+            np.clip(self.noise_crossover_hz or np.inf, least, THRESHOLDS.max_position_cutoff)
+        )
 
     @property
     def is_exact(self) -> bool:
@@ -99,8 +101,8 @@ class ChannelNoise(ShortRepr):
     def format_words(self) -> str:
         """Returns the noise of the joint in words."""
         size, unit = self.scale_to_milli(self.deviation)
-        coloured = f", growing as f^-{self.colour:.1f}" if self.colour else ""
-        above = self.hides_above_hz or np.inf
+        coloured = f", growing as f^-{self.spectral_slope:.1f}" if self.spectral_slope else ""
+        above = self.noise_crossover_hz or np.inf
         return f"joint {self.joint} {size:.2g} {unit} above {above:.2g} Hz{coloured}"
 
     def scale_to_milli(self, size: float) -> tuple[float, str]:
@@ -127,7 +129,7 @@ class MotionNoise(ShortRepr):
     @property
     def moving(self) -> tuple[ChannelNoise, ...]:
         """Returns the noise of the joints that move."""
-        return tuple(joint for joint in self.joints if joint.moves)
+        return tuple(joint for joint in self.joints if joint.is_moving)
 
     @property
     def band(self) -> float:
@@ -187,11 +189,11 @@ class MotionNoise(ShortRepr):
         """Returns a line of each channel: its noise, where it hides the motion, its resolution."""
         lines = []
         for joint in self.joints:
-            if joint.moves and not joint.is_exact:
+            if joint.is_moving and not joint.is_exact:
                 size, unit = joint.scale_to_milli(joint.step)
                 step = f", in steps of {size:.3g} {unit}" if joint.step else ""
                 lines.append(f"noise of the {self.quantity}: {joint.format_words()}{step}")
-        rest = [joint.joint for joint in self.joints if not joint.moves]
+        rest = [joint.joint for joint in self.joints if not joint.is_moving]
         if rest:
             verb = "rest" if len(rest) > 1 else "rests"
             lines.append(f"joint{'s' * (len(rest) > 1)} {', '.join(rest)} {verb}")
@@ -256,8 +258,8 @@ def estimate_motion_noise(
             ChannelNoise(
                 joint=joint.name,
                 unit=joint.unit,
-                of=MEASURED[order],
-                moves=moves,
+                quantity=MEASURED[order],
+                is_moving=moves,
                 step=float(steps[min(1, 2 - order), j]) if order else 0.0,
                 band_hz=band_hz,
                 frequency=tuple(map(_shorten_number, hz)),
@@ -303,8 +305,8 @@ def find_floor(
     return {
         "density": float(density),
         "deviation": float(np.sqrt(0.5 * density * rate)),
-        "hides_above_hz": None if meets is None else float(meets),
-        "colour": colour,
+        "noise_crossover_hz": None if meets is None else float(meets),
+        "spectral_slope": colour,
     }
 
 
@@ -515,23 +517,23 @@ class Bands(ShortRepr):
     Attributes:
         position_cutoff, parallel_cutoff: Hz; None if there was no fit.
         noise: of every channel of the motion.
-        widest: Hz of both filters, as the motion alone asks for; empty where one was given.
-        chosen_by: sentences.
-        limited_by: joint that they were lowered for; None if the parallel filter is the widest.
-        trembling: how many times as much as the measured torque the model's torque varies from row
-            to row behind the first filters of which it is too much; 0 if behind none.
-        trembling_left: the same behind the filters that were chosen.
+        widest_cutoffs: Hz of both filters, as the motion alone asks for; empty where one was given.
+        reasons: sentences.
+        limiting_joint: joint that they were lowered for; None if the parallel filter is the widest.
+        chatter_ratio: how many times as much as the measured torque the model's torque varies from
+            row to row behind the first filters of which it is too much; 0 if behind none.
+        chatter_ratio_filtered: the same behind the filters that were chosen.
         widest_values: (c,) base parameters behind the widest filters; empty where they were chosen.
     """
 
     position_cutoff: float | None
     parallel_cutoff: float | None
     noise: tuple[ChannelNoise, ...]
-    widest: Mapping[str, float] = field(default_factory=dict)
-    chosen_by: tuple[str, ...] = ()
-    limited_by: str | None = None
-    trembling: float = 0.0
-    trembling_left: float = 0.0
+    widest_cutoffs: Mapping[str, float] = field(default_factory=dict)
+    reasons: tuple[str, ...] = ()
+    limiting_joint: str | None = None
+    chatter_ratio: float = 0.0
+    chatter_ratio_filtered: float = 0.0
     widest_values: tuple[float, ...] = ()
 
 

@@ -249,11 +249,11 @@ def limit_cutoffs(model: CompiledModel, prepared: PreparedLogs, asked: Processin
         position,
         parallel,
         crossover.attach_torque_noise(noise),
-        widest=select_attributes(wide, "position_cutoff parallel_cutoff"),
-        chosen_by=said,
-        limited_by=None if by is None else noise.joints[by].joint,
-        trembling=chatter_free.chatter_ratio,
-        trembling_left=chatter_free.chatter_ratio_filtered,
+        widest_cutoffs=select_attributes(wide, "position_cutoff parallel_cutoff"),
+        reasons=said,
+        limiting_joint=None if by is None else noise.joints[by].joint,
+        chatter_ratio=chatter_free.chatter_ratio,
+        chatter_ratio_filtered=chatter_free.chatter_ratio_filtered,
         widest_values=()
         if widest is None or parallel > THRESHOLDS.cutoff_factor * wide.parallel_cutoff
         else tuple(widest.solution[0].tolist()),
@@ -610,7 +610,7 @@ class NoiseCrossover(ShortRepr):
         """Returns the channels of the motion, with the noise of the torques of their joints."""
         channels = list(noise.joints)
         for j, (A, T) in self.torques.items():
-            channels[j] = dataclasses.replace(channels[j], torque_of_noise=A, torque_noise=T)
+            channels[j] = dataclasses.replace(channels[j], noise_torque=A, torque_noise=T)
         return tuple(channels)
 
 

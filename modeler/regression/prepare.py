@@ -454,7 +454,7 @@ def estimate_position_noise(seen: Positions | None) -> MotionNoise | None:
         return None
     bands = estimate_joint_bands(pieces, compute_spectra(pieces))
     noise = estimate_motion_noise(joints, pieces, bands)
-    return noise.take_last_floors(lambda joint: joint.colour > THRESHOLDS.max_noise_slope)
+    return noise.take_last_floors(lambda joint: joint.spectral_slope > THRESHOLDS.max_noise_slope)
 
 
 def compute_visible_band(band: float, pieces: Sequence[RawSegment]) -> float:
@@ -527,7 +527,7 @@ def choose_cutoffs(
         f"{band:.3g} Hz" if band else "of less than the pieces of motion are long enough to show"
     )
     said = [f"motion band {shown} (99 % of the velocity's energy), sampled at {noise.rate:.4g} Hz"]
-    rest = [joint.joint for joint in noise.joints if not joint.moves]
+    rest = [joint.joint for joint in noise.joints if not joint.is_moving]
     if rest and len(rest) < len(noise.joints):
         one = len(rest) == 1
         said.append(
@@ -559,7 +559,7 @@ def choose_cutoffs(
         "position_cutoff": position,
         "parallel_cutoff": parallel,
         "speed_floors": processing.speed_floors or {},
-        "chosen": tuple(dict.fromkeys((*processing.chosen, *automatic))),
+        "automatic_cutoffs": tuple(dict.fromkeys((*processing.automatic_cutoffs, *automatic))),
     }
     return ChosenProcessing(**{**vars(processing), **choices}), tuple(said)
 
@@ -633,7 +633,7 @@ def close_segment(model: CompiledModel, segment: Segment) -> tuple[Segment, np.n
         return segment, np.zeros(segment.samples, dtype=bool)
     nearest = find_nearest_closed(model, segment.q)
     if nearest is None:
-        home = np.asarray(model.spec.closure.home)[list(model.spec.closure.given)]
+        home = np.asarray(model.spec.closure.home)[list(model.spec.closure.actuated)]
         q, open_ = np.tile(home, (segment.samples, 1)), np.ones(segment.samples, dtype=bool)
     else:
         q, open_ = segment.q[nearest], nearest != np.arange(segment.samples)

@@ -92,7 +92,7 @@ def _choose_posture(model: CompiledModel) -> np.ndarray:
     state = np.random.default_rng(1).uniform(0.2, 1.0, joints)
     if closure is None:
         return state
-    home = np.asarray(closure.home)[list(closure.given)]
+    home = np.asarray(closure.home)[list(closure.actuated)]
     for halved in range(THRESHOLDS.home_halvings):
         near = home + 0.5**halved * (state - home)
         try:
@@ -149,7 +149,7 @@ def compute_top_speeds(
     tops = []
     for part in parts:
         turned = np.flatnonzero(part.coefficients)
-        if noise is not None and not any(noise.joints[j].moves for j in turned):
+        if noise is not None and not any(noise.joints[j].is_moving for j in turned):
             tops.append(0.0)
             continue
         speeds = np.concatenate([np.abs(part.compute_speed(s.qd[s.whole])) for s in segments])

@@ -210,8 +210,8 @@ class Truth(ShortRepr):
         q, qd, qdd: (n, joints) exact motion at each sample; qdd just after the torque's step.
         tau: (n, joints) motor torque, constant from each sample to the next, N m or N.
         parameters: true standard parameters by name, in table order, SI units.
-        drawn: names among these that the robot file leaves open.
-        hidden: effects that the robot file lacks, with all their values.
+        random_parameters: names among these that the robot file leaves open.
+        hidden_effects: effects that the robot file lacks, with all their values.
     """
 
     q: np.ndarray
@@ -219,8 +219,8 @@ class Truth(ShortRepr):
     qdd: np.ndarray
     tau: np.ndarray
     parameters: Mapping[str, float]
-    drawn: tuple[str, ...]
-    hidden: tuple[HiddenEffect, ...] = ()
+    random_parameters: tuple[str, ...]
+    hidden_effects: tuple[HiddenEffect, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -320,8 +320,8 @@ def write_truth(path: Path, log: SimulatedLog) -> None:
         "parameter_seed": log.settings.parameter_seed,
         "torque_noise": log.settings.torque_noise,
         "parameters": dict(log.truth.parameters),
-        "drawn": list(log.truth.drawn),
-        "hidden": serialise_hidden_effects(log),
+        "random_parameters": list(log.truth.random_parameters),
+        "hidden_effects": serialise_hidden_effects(log),
         "drive_gains": dict(log.settings.drive_gains),
     }
     write_atomically(
@@ -332,5 +332,6 @@ def write_truth(path: Path, log: SimulatedLog) -> None:
 def serialise_hidden_effects(log: SimulatedLog) -> list[dict[str, object]]:
     """Returns the hidden effects for JSON."""
     return [
-        {"effect": h.effect, "joint": h.joint, "values": dict(h.values)} for h in log.truth.hidden
+        {"effect": h.effect, "joint": h.joint, "values": dict(h.values)}
+        for h in log.truth.hidden_effects
     ]

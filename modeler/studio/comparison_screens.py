@@ -446,16 +446,16 @@ def _draw_model_comparison(studio: Studio, step: Step) -> None:
     model_entries = studio.read_result(step)["models"]
     with add_card("Who is better"):
         for each in model_entries:
-            if each["best_on"]:
-                joints = ", ".join(each["best_on"])
+            if each["best_joints"]:
+                joints = ", ".join(each["best_joints"])
                 ui.label(f"{each['model']} predicts joint {joints} significantly better.")
-        if not any(each["best_on"] for each in model_entries):
+        if not any(each["best_joints"] for each in model_entries):
             ui.label("No model is significantly better than the other on any joint.")
         rows = []
         for joint in model_entries[0]["joints"]:
             joint_entries = [each["joints"][joint] for each in model_entries]
             cells = [
-                f"{format_percent(one['relative_error'])}{' *' * one['best']}"
+                f"{format_percent(one['relative_error'])}{' *' * one['is_best']}"
                 for one in joint_entries
             ]
             rows.append([f"joint {joint}", *cells])
@@ -500,14 +500,14 @@ def _draw_fleet(studio: Studio, step: Step) -> None:
         if result["findings"]:
             draw_table(
                 ["machine", "what", "how", "from", "to", "change", "certainty"],
-                [[one["machine"], one["parameter"], one["shape"], one["from"], one["to"],
+                [[one["machine"], one["parameter"], one["shape"], one["begin"], one["end"],
                   f"{one['change']:.4g} {one['unit']}", f"{one['score']:.1f} sigma"]
                  for one in result["findings"]],
             )  # fmt: skip
-        left = [f"{one['log']} left out: {one['why']}" for one in result["left_out"]]
+        left = [f"{one['log']} left out: {one['reason']}" for one in result["skipped_logs"]]
         for line in [f"{one['sentence']}." for one in result["findings"]]:
             ui.label(line)
-        for line in (*result["doubts"], *result["notes"], *left):
+        for line in (*result["warnings"], *result["notes"], *left):
             ui.label(line).classes("studio-soft")
     _draw_pictures(studio, step)
 

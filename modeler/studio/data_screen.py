@@ -170,7 +170,7 @@ class DataScreen(ProjectLogs):
                 line = Timeline(file, known.ends, active=False)
                 line.update_log(self.get_log(file), result.get("marks", ()))
                 ui.label(describe_roles(self.get_log(file)))
-                count = len(result.get("doubts", ()))
+                count = len(result.get("warnings", ()))
                 doubts = f"{count or 'no'} warning{'s' * (count != 1)}" if result else ""
                 ui.label(doubts).classes("studio-soft")
             off = ui.button(icon="close", on_click=lambda: self._remove_log(file))

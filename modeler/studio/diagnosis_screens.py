@@ -67,7 +67,9 @@ async def _draw_diagnosis(studio: Studio, step: Step) -> None:
         pictures = {p.name: p for p in read_pictures(studio.folder / step.pictures_file)}
     with elements.add_card(f"Verdict: {result['verdict']}"):
         elements.draw_lines(result["sentences"] if not every else result["sentences"][:1])
-        elements.draw_warnings(result["data"] if every else ())  # else the sentences say it
+        elements.draw_warnings(
+            result["data_warnings"] if every else ()
+        )  # else the sentences say it
         if every:
             elements.draw_folded("Command output", result["sentences"])
         else:
@@ -82,11 +84,12 @@ async def _draw_diagnosis(studio: Studio, step: Step) -> None:
             then = partial(_accept_step, studio)
             elements.add_run_button(studio, "Add all that is named", every_one, then, small=True)
         rivals = [
-            (_describe_place(rival), format_percent(rival["gain"])) for rival in result["rivals"]
+            (_describe_place(rival), format_percent(rival["gain"]))
+            for rival in result["alternatives"]
         ]
         blind = [
-            (_describe_place(one), _describe_effect(one["effect"], "look_alikes"))
-            for one in result["blind_spots"]
+            (_describe_place(one), _describe_effect(one["effect"], "confounders"))
+            for one in result["undetectable"]
         ]
         elements.draw_folded(
             "Alternatives that explain less", rivals, "effect", "of the residual's variance"
@@ -106,7 +109,7 @@ async def _draw_card(
         f"{_describe_effect(effect)}: {f'joint {joint}' if joint else 'the whole robot'}"
     ):
         with ui.row().classes("items-center"):
-            elements.draw_light(which, f"{status}: {one['doubt']}" if one["doubt"] else status)
+            elements.draw_light(which, f"{status}: {one['warning']}" if one["warning"] else status)
             ui.label(f"id {effect}").classes("studio-soft")
             if refines:
                 ui.label("refines a law of the model").classes("studio-soft")
@@ -128,7 +131,7 @@ async def _draw_card(
         for name, value in one["parameters"].items():
             ui.label(f"{name} = {_format_value(one, name, value)}{meanings.get(name, '')}")
         ui.label(one["evidence"])
-        elements.draw_warnings([one["objection"]] if one["objection"] else [])
+        elements.draw_warnings([one["caveat"]] if one["caveat"] else [])
         if one["ties"]:
             others = "; ".join(map(_describe_place, one["ties"]))
             elements.draw_warnings([f"these data do not distinguish it from: {others}"])
@@ -269,7 +272,7 @@ def _add_model_names(picture: Picture, models: Sequence[str], effect: str) -> Pi
 
 def _draw_remainder(joints: Mapping[str, Mapping[str, float | None]], kind: str) -> None:
     """Where nothing is missing: what is left of each joint's torque."""
-    names = ("error_before", "explained", "systematic", "noise")
+    names = ("error_before", "explained_share", "systematic_share", "noise_share")
     rows = [
         (joint, *(format_percent(shares[name]) for name in names))
         for joint, shares in joints.items()
@@ -398,7 +401,7 @@ def _draw_pictures(studio: Studio, path: Sequence[Step]) -> None:
     elements.draw_warnings(
         f"{one['effect']} {one['joint'] or ''}: the error does not fall significantly with it"
         for one in _read_waterfall(studio, path[-1])
-        if not one["falls"]
+        if not one["is_improvement"]
     )
 
 
@@ -424,7 +427,7 @@ def _describe_error(studio: Studio, step: Step) -> str:
     if "waterfall" not in result:
         return f"error {format_percent(result['relative_error'])}"
     last = result["waterfall"][-1]
-    kind = "held-out" if last["held_out"] else "cross-validated"
+    kind = "held-out" if last["held_out_logs"] else "cross-validated"
     return f"{kind} error {format_percent(last['error'])}, rms over the joints"
 
 

@@ -97,7 +97,7 @@ def _draw_advanced(chosen: dict[str, Any], renew: Callable[[], None]) -> None:
     def _draw_estimator() -> None:
         about = next((a for a in every if a.id == chosen.get("method")), every[0])
         facts = {"what it solves": about.law, "source": about.source,
-                "the wrong one": about.avoid, "of the motion": about.motion}  # fmt: skip
+                "the wrong one": about.limitations, "of the motion": about.motion}  # fmt: skip
         ui.label(about.title).classes("studio-part")
         elements.draw_table(("", ""), list(facts.items()))
 
@@ -164,10 +164,10 @@ def _draw_verdict(fit: Mapping[str, Any]) -> None:
                     ui.label(text).classes("studio-soft")
                     elements.draw_lines(joint_result["why"])
         ui.label("Physical consistency").classes("studio-part")
-        elements.draw_light(*_BUILT[fit.get("possible")])
+        elements.draw_light(*_BUILT[fit.get("physically_consistent")])
         reasons = {reason for joint in by_joint.values() for reason in joint["why"]}
-        elements.draw_warnings(line for line in fit["doubts"] if line not in reasons)
-        elements.draw_folded("Notes", [*fit["sentences"], *fit.get("unseen", ())])
+        elements.draw_warnings(line for line in fit["warnings"] if line not in reasons)
+        elements.draw_folded("Notes", [*fit["sentences"], *fit.get("undetectable_faults", ())])
 
 
 def _draw_values(fit: Mapping[str, Any], model: Mapping[str, Any]) -> None:
@@ -218,17 +218,17 @@ def _draw_whisker(value: float, sigma: float, top: float) -> str:
 
 def _draw_choices(fit: Mapping[str, Any]) -> None:
     """What was chosen from the logs, and why."""
-    processing, bands = fit["processing"], fit["bands"] or {"chosen_by": [], "noise": []}
+    processing, bands = fit["processing"], fit["bands"] or {"reasons": [], "noise": []}
     cutoffs = {"position filter": "position_cutoff", "parallel filter": "parallel_cutoff"}
     with elements.add_card("How the logs were processed, and why"):
-        elements.draw_lines(bands["chosen_by"])
+        elements.draw_lines(bands["reasons"])
         rows = (
             [
                 (
                     title,
                     f"{format_number(processing[name])} Hz",
                     "chosen from the logs"
-                    if name in processing["chosen"]
+                    if name in processing["automatic_cutoffs"]
                     else "as it was requested",
                 )
                 for title, name in cutoffs.items()
@@ -249,7 +249,7 @@ def _draw_choices(fit: Mapping[str, Any]) -> None:
                 (
                     f"noise of position {noise['joint']}",
                     f"{format_number(noise['deviation'])} {noise['unit']}",
-                    f"hides the motion above {format_number(noise['hides_above_hz'])} Hz",
+                    f"hides the motion above {format_number(noise['noise_crossover_hz'])} Hz",
                 )
                 for noise in bands["noise"]
             ]

@@ -525,7 +525,7 @@ class LogView:
         """Draws the output of `modeler log`."""
         self._update_line()
         result, marks = self.project_logs.read_result(self.file), self.get_marks()
-        doubts = result.get("doubts", self.guess.doubts)
+        doubts = result.get("warnings", self.guess.doubts)
         rows = {line: [m for m in marks if line.endswith(m["line"])] for line in doubts}
         shown_marks = [id(mark) for line_marks in rows.values() for mark in line_marks]
         alike: dict[str, list[Mapping[str, Any]]] = {}
@@ -600,7 +600,7 @@ def _get_ends(stretch: TimeRange | None) -> tuple[float, float] | None:
 
 def _format_channel(channel: Mapping[str, Any]) -> Sequence[str]:
     """A channel in words."""
-    unit = f"{channel['unit'] or ''}{'?' * channel['guessed']}"
+    unit = f"{channel['unit'] or ''}{'?' * channel['is_unit_guessed']}"
     numbers = (channel[name] for name in ("low", "high", "resolution"))
     texts = ("" if value is None else f"{value:.4g}" for value in numbers)
-    return (channel["name"], unit, *texts, str(channel["missing"] or ""))
+    return (channel["name"], unit, *texts, str(channel["missing_rows"] or ""))

@@ -136,18 +136,18 @@ def find_changed_limits(studio: Studio) -> list[str]:
 
 
 def _draw_result(studio: Studio, step: Step, result: Mapping[str, Any]) -> None:
-    random = result["random"]
+    random = result["random_motions"]
     ui.label(
         f"Condition number {result['condition_scaled']:.4g}, columns of length one; the best of "
         f"{random['motions']} random motions has {random['condition_scaled_best']:.4g}."
     )
-    for line in _describe_separation(result.get("between")):
+    for line in _describe_separation(result.get("discrimination")):
         ui.label(line)
     rows = []
     for joint, limits in result["joints"].items():
         cells = []
         for what in _USED:
-            used, limit = limits[what]["used"], limits[what]["limit"]
+            used, limit = limits[what]["value"], limits[what]["limit"]
             known = "" if used is None else f"{used:.3g}"
             cells.append(known if limit is None else f"{known} of {limit:.3g}")
         rows.append((joint, *cells))
@@ -173,7 +173,7 @@ def _describe_separation(separation: Mapping[str, Any] | None) -> list[str]:
     if not separation:
         return []
     (one, a), (other, b) = separation.items()
-    shares = ((a[key], b[key]) for key in ("left", "left_random", "gain"))
+    shares = ((a[key], b[key]) for key in ("unexplained_share", "random_share", "gain"))
     return excitation.Discrimination((one, other), *shares).format_lines()
 
 

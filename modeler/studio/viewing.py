@@ -238,9 +238,9 @@ def log_guess(place: str, robot: str = "") -> LogGuess:
         }
         count = 1 if inspection.positions is None else len(inspection.positions.names)
         choices, ranged = parse_guess(
-            inspection.suggested, joints or build_default_joints(count), columns
+            inspection.suggested_map, joints or build_default_joints(count), columns
         )
-        clock = next((part for part in inspection.streams if part.clock), None)
+        clock = next((part for part in inspection.streams if part.is_clock), None)
         is_ambiguous = (
             [part.kind for part in inspection.streams].count(clock.kind) > 1 if clock else False
         )
@@ -432,7 +432,8 @@ def verdict(model: str, logs: Sequence[str]) -> Verdict:
         float(time.max()),
         tuple(map(_classify_remainder, items)),
         tuple(
-            f"Joint {name}: not judged: {why}" for name, why in model_on_logs.comparison.unjudged
+            f"Joint {name}: not judged: {why}"
+            for name, why in model_on_logs.comparison.excluded_joints
         ),
     )
 

@@ -69,8 +69,8 @@ def _format_row(item: "JointComparison") -> tuple[str, ...]:
         f"{item.largest.value:.3g} {unit:<3}",
         f"{item.largest.time:.2f} s of {item.largest.log}",
         format_or_dash(item.r2, ".3f"),
-        format_percent(None if variance_shares is None else variance_shares.systematic),
-        format_percent(None if variance_shares is None else variance_shares.floor),
+        format_percent(None if variance_shares is None else variance_shares.systematic_share),
+        format_percent(None if variance_shares is None else variance_shares.noise_share),
         f"{item.bias:.2g} {unit:<3}",
     )
 
@@ -195,14 +195,16 @@ class Scale:
     """measured = factor * predicted, by least squares: no constant, which nobody could apply."""
 
     factor: float
-    mended: float  # share of the squared residual that the factor of other blocks takes away
+    variance_reduction: (
+        float  # share of the squared residual that the factor of other blocks takes away
+    )
 
     @property
     def has_opposite_sign(self) -> bool:
         """Returns True if the prediction has the wrong sign."""
         return (
             self.factor < THRESHOLDS.max_opposite_factor
-            and self.mended > THRESHOLDS.min_scale_reduction
+            and self.variance_reduction > THRESHOLDS.min_scale_reduction
         )
 
     @property
@@ -210,7 +212,7 @@ class Scale:
         """Returns True if the prediction is right but for a factor."""
         return (
             abs(self.factor - 1.0) > THRESHOLDS.min_scale_error
-            and self.mended > THRESHOLDS.min_scale_reduction
+            and self.variance_reduction > THRESHOLDS.min_scale_reduction
         )
 
 
@@ -227,7 +229,7 @@ def estimate_scale(measured: np.ndarray, predicted: np.ndarray) -> Scale | None:
     after = float(np.sum((measured - elsewhere[blocks] * predicted) ** 2))
     return Scale(
         factor=float(cross.sum() / squares.sum()),
-        mended=1.0 - after / before if before > 0.0 else 0.0,
+        variance_reduction=1.0 - after / before if before > 0.0 else 0.0,
     )
 
 
@@ -307,9 +309,9 @@ class Comparison(Result):
     samples: int  # rows that count for at least one joint
     relative_error: float  # over all joints, rows stacked (N m and N together); NaN: no torque
     joints: tuple[JointComparison, ...]
-    unjudged: tuple[tuple[str, str], ...]  # joint name, why
+    excluded_joints: tuple[tuple[str, str], ...]  # joint name, why
     logs: tuple[LogError, ...]
-    repeated: tuple[residual_structure.Repetition, ...]  # empty: no motion was made twice
+    repeated_motions: tuple[residual_structure.Repetition, ...]  # empty: no motion was made twice
     by_unit: Mapping[str, float]  # relative error over the joints of one unit; NaN: no torque
 
     def to_json(self) -> dict[str, Any]:
@@ -324,9 +326,11 @@ class Comparison(Result):
                 "relative_error_pools": POOLED,
                 "by_unit": self.by_unit,
                 "joints": {joint.joint.name: _serialise_joint(joint) for joint in self.joints},
-                "unjudged": dict(self.unjudged),
+                "excluded_joints": dict(self.excluded_joints),
                 "by_log": logs,
-                "repeated": [{"method": r.kind, "periods": r.periods} for r in self.repeated],
+                "repeated_motions": [
+                    {"method": r.kind, "periods": r.periods} for r in self.repeated_motions
+                ],
             }
         )
 
@@ -334,9 +338,9 @@ class Comparison(Result):
         """Returns plain text: one line per joint, what the shares mean, one line per log."""
         rows = [_HEAD, *(_format_row(item) for item in self.joints)]
         lines = align_columns(rows, _LEFT)
-        names = max((len(name) for name, _ in self.unjudged), default=0)
+        names = max((len(name) for name, _ in self.excluded_joints), default=0)
         width = max(7, names + 1, *(len(row[0]) + 2 for row in rows))
-        lines += [f"{name:<{width}}not judged: {reason}" for name, reason in self.unjudged]
+        lines += [f"{name:<{width}}not judged: {reason}" for name, reason in self.excluded_joints]
         if len(self.by_unit) == 1:
             lines.append(
                 f"{'all':<{width}}{format_percent(self.relative_error)}  of {self.samples} samples"
@@ -381,9 +385,9 @@ def compare(prediction: Prediction, ripple_windows: Prediction | None = None) ->
         samples=int(used.any(axis=1).sum()),
         relative_error=compute_relative_error(prediction),
         joints=tuple(judged),
-        unjudged=tuple(unjudged),
+        excluded_joints=tuple(unjudged),
         logs=compute_errors_by_log(prediction),
-        repeated=repeated,
+        repeated_motions=repeated,
         by_unit=compute_unit_errors(prediction),
     )
 
@@ -437,13 +441,22 @@ def _serialise_joint(item: JointComparison) -> dict[str, Any]:
         **select_attributes(item, "samples bias predicted_sigma regions"),
         "worst_window": item.worst,
         "structure": joint_structure
-        and {name: dict(getattr(joint_structure, name)) for name in ("shares", "across", "motors")}
-        | select_attributes(joint_structure, "together follows"),
+        and {
+            name: dict(getattr(joint_structure, name))
+            for name in ("shares", "other_joints", "motors")
+        }
+        | select_attributes(joint_structure, "own_motion best_predictor"),
         "spectrum": spectrum
-        and {"memory": spectrum.correlation_time, "lag_one": spectrum.correlation[1]}
+        and {
+            "correlation_time": spectrum.correlation_time,
+            "lag_one_correlation": spectrum.correlation[1],
+        }
         | select_attributes(spectrum, "peak peak_share"),
-        "explained": item.r2,
-        **{name: parts and getattr(parts, name) for name in ("systematic", "floor", "method")},
+        "explained_share": item.r2,
+        **{
+            name: parts and getattr(parts, name)
+            for name in ("systematic_share", "noise_share", "method")
+        },
         "systematic_sigma": parts and parts.sigma,
         "scale": item.scale,
         "orders": item.orders and residual_structure.find_order_peaks(item.orders, item.joint.unit),

@@ -67,7 +67,7 @@ class FleetFinding(ShortRepr):
         change: from there on; of a gain in %.
         sigma: of the change.
         score: change in sigmas.
-        chance: that a fleet in which nothing drifts shows this, all that was looked at counted.
+        p_value: that a fleet in which nothing drifts shows this, all that was looked at counted.
         temperature: None where no temperature was logged.
         since: periods from begin on; a jump stays if it is in two.
     """
@@ -82,7 +82,7 @@ class FleetFinding(ShortRepr):
     change: float
     sigma: float
     score: float
-    chance: float
+    p_value: float
     temperature: TemperatureEffect | None = None
     since: int = 0
 
@@ -101,13 +101,13 @@ class QuantityValues(ShortRepr):
     """One quantity of one machine; p periods.
 
     Attributes:
-        at: (p,) in days or periods since the first of the fleet.
+        times: (p,) in days or periods since the first of the fleet.
         periods: (p,) their names.
         values: (p,) NaN where a log does not determine it.
         sigmas: (p,) scatter from one period to the next included.
     """
 
-    at: np.ndarray
+    times: np.ndarray
     periods: tuple[str, ...]
     values: np.ndarray
     sigmas: np.ndarray
@@ -145,9 +145,9 @@ class Fleet(Result):
         findings: the surest first.
         histories: all that was looked at, and a load if one could be identified.
         false_alarm: chance that a fleet in which nothing drifts has any finding, at most.
-        unidentified: common parameters that the logs cannot identify.
+        unresolved: common parameters that the logs cannot identify.
         skipped_logs: logs that were not used, and why.
-        doubts: what is wrong with the measurements.
+        warnings: what is wrong with the measurements.
         notes: what a reader must know.
     """
 
@@ -157,9 +157,9 @@ class Fleet(Result):
     findings: tuple[FleetFinding, ...]
     histories: tuple[QuantityHistory, ...]
     false_alarm: float
-    unidentified: tuple[str, ...]
+    unresolved: tuple[str, ...]
     skipped_logs: tuple[tuple[str, str], ...]
-    doubts: tuple[str, ...]
+    warnings: tuple[str, ...]
     notes: tuple[str, ...]
 
     @property
@@ -180,14 +180,14 @@ class Fleet(Result):
             {
                 "robot": self.robot,
                 "verdict": self.verdict,
-                "time": self.unit,
+                "time_unit": self.unit,
                 **select_attributes(self, "logs machines"),
                 "findings": [_build_finding_json(f, self.unit) for f in self.findings],
                 "quantities": [_build_history_json(each) for each in self.histories],
                 "false_alarm": self.false_alarm,
-                "not_told": self.unidentified,
-                "left_out": [{"log": place, "why": why} for place, why in self.skipped_logs],
-                **select_attributes(self, "doubts notes"),
+                "unresolved": self.unresolved,
+                "skipped_logs": [{"log": place, "reason": why} for place, why in self.skipped_logs],
+                **select_attributes(self, "warnings notes"),
             }
         )
 
@@ -201,17 +201,17 @@ def _build_finding_json(finding: FleetFinding, unit: Unit) -> dict[str, Any]:
         "machine": finding.machine,
         **select_attributes(finding.quantity, _QUANTITY),
         "shape": finding.shape,
-        "from": finding.begin,
-        "to": finding.end,
+        "begin": finding.begin,
+        "end": finding.end,
         "periods_since": finding.since,
         **select_attributes(finding, "before change"),
         "change_percent": finding.change_percent,
-        **select_attributes(finding, "sigma score chance"),
+        **select_attributes(finding, "sigma score p_value"),
         "temperature": temperature
         and {
             **select_attributes(temperature, "lowest highest correlation"),
-            "moves_along": temperature.is_correlated,
-            "others_alike": temperature.is_shared,
+            "is_correlated": temperature.is_correlated,
+            "is_shared": temperature.is_shared,
         },
         "sentence": describe_finding(finding, unit),
     }
@@ -220,13 +220,13 @@ def _build_finding_json(finding: FleetFinding, unit: Unit) -> dict[str, Any]:
 def _build_history_json(each: QuantityHistory) -> dict[str, Any]:
     machines = {}
     for name, values in each.machines.items():
-        machines[name] = select_attributes(values, "periods at values sigmas")
+        machines[name] = select_attributes(values, "periods times values sigmas")
         machines[name]["score"] = each.scores.get(name)
     return {
         **select_attributes(each.quantity, _QUANTITY),
         "level": each.level,
         "scatter_factor": each.factor,
-        "would_be_told": each.smallest_detectable,
+        "smallest_detectable": each.smallest_detectable,
         "machines": machines,
     }
 
@@ -316,8 +316,8 @@ def format_fleet(fleet: Fleet) -> list[str]:
             "the motion needs, as with a weaker magnet, or a torque sensor that reads too much"
         )
     lines += format_skipped(fleet)
-    if fleet.unidentified:
-        lines.append(f"not identifiable from any log, taken as 0: {', '.join(fleet.unidentified)}")
+    if fleet.unresolved:
+        lines.append(f"not identifiable from any log, taken as 0: {', '.join(fleet.unresolved)}")
     return lines
 
 
@@ -379,12 +379,12 @@ def analyse_fleet(spec: ModuleSpec, summaries: Sequence[LogSummary | SkippedLog]
         robot=spec.robot,
         unit=unit,
         machines=machines,
-        findings=tuple(sorted(findings, key=lambda one: (one.chance, -abs(one.score)))),
+        findings=tuple(sorted(findings, key=lambda one: (one.p_value, -abs(one.score)))),
         histories=_summarise_quantities(tests, logs),
         false_alarm=FLEET_THRESHOLDS.false_alarm,
-        unidentified=fit.unidentified,
+        unresolved=fit.unidentified,
         skipped_logs=left,
-        doubts=tuple(
+        warnings=tuple(
             f"{e.log_name.machine}, {e.log_name.period}: {d}" for e in logs for d in e.doubts
         ),
         notes=(*_describe_filters(logs), *_collect_notes(tests, logs), *foreign_notes, *unseen),
@@ -434,7 +434,7 @@ def _build_findings(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[Fl
                 change=move.change,
                 sigma=move.sigma,
                 score=move.score,
-                chance=move.chance,
+                p_value=move.chance,
                 temperature=compare_temperature(both[0], quantity.joint, line, both[1:]),
                 since=len(log_indices) - move.begin,
             )
@@ -455,7 +455,7 @@ def _build_findings(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[Fl
                 change=outlier.difference,
                 sigma=outlier.spread,
                 score=outlier.score,
-                chance=0.5 * FLEET_THRESHOLDS.false_alarm,
+                p_value=0.5 * FLEET_THRESHOLDS.false_alarm,
                 since=len(log_indices),
             )
         )

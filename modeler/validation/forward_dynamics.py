@@ -263,14 +263,14 @@ class Stability(ShortRepr):
         return float(np.log(2.0) / self.rate) if self.rate > 0.0 else None
 
     @property
-    def unstable(self) -> bool:
+    def is_unstable(self) -> bool:
         """Returns True if an error grows at least tenfold in that run."""
         return bool(self.rate * self.seconds > _GROWN)
 
     def describe(self) -> str:
         """Describes the growth of errors in a sentence."""
         growth = self.rate * self.seconds
-        if self.unstable:
+        if self.is_unstable:
             tens = f"1e{growth / np.log(10.0):.0f}"
             times = f"{np.exp(growth):.2g}" if growth < 25.0 else tens
             return (

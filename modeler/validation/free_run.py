@@ -390,7 +390,7 @@ def simulate_free_run(
         numerical=runs.numerical,
         controlled=controlled_run,
         paths=runs.paths,
-        doubts=tuple(doubts),
+        warnings=tuple(doubts),
     )
 
 
@@ -607,7 +607,7 @@ def _collect_warnings(
             "the integration is not exact: halving its step moves a joint by "
             f"{format_percent(numerical)} of its range within a window"
         )
-    if motion_stability.unstable and motion_stability.rate * window > np.log(10.0):
+    if motion_stability.is_unstable and motion_stability.rate * window > np.log(10.0):
         shorter = float(f"{1.0 / motion_stability.rate:.1g}")
         warnings.append(
             f"within a window of {window:g} s an error grows tenfold and more by nature; "

@@ -33,22 +33,22 @@ class JointFreeRun(ShortRepr):
         unit: "rad" or "m".
         fit: 100 (1 - |q - q_s| / |q - mean q|) over all windows, %; 100 is perfect, 0 no better
             than the mean position. None: the joint hardly moves.
-        constant_speed: the same of going on at the speed that it has at the start of a window.
-        whole: the same of the runs from the start of each log; None as above.
+        constant_speed_fit: the same of going on at the speed that it has at the start of a window.
+        whole_run_fit: the same of the runs from the start of each log; None as above.
         horizon: s, median over the windows' starts, until the error passes the bound; None: in more
             than half of them it does not.
-        passed: starts after which it passed the bound.
-        largest: rad or m, largest error in a window.
+        windows_over_bound: starts after which it passed the bound.
+        largest_error: rad or m, largest error in a window.
     """
 
     name: str
     unit: str
     fit: float | None
-    constant_speed: float | None
-    whole: float | None
+    constant_speed_fit: float | None
+    whole_run_fit: float | None
     horizon: float | None
-    passed: int
-    largest: float
+    windows_over_bound: int
+    largest_error: float
 
 
 @dataclass(frozen=True)
@@ -56,8 +56,9 @@ class ControlledRun(ShortRepr):
     """The robot under a controller that follows the logged commands.
 
     Attributes:
-        speed, ratio, integral, forward: of the cascade, see `estimation.direct_model`; speed in Hz.
-        given: its values were given; else those that bring the robot nearest to the log.
+        speed, ratio, integral, feedforward: of the cascade, see `estimation.direct_model`; speed in
+            Hz.
+        has_given_gains: its values were given; else those that bring the robot nearest to the log.
         fit: by joint, % of the positions, as above.
         tracking: by joint, 100 (1 - |q - q_s| / |q - q_c|), %: how much of what the controller
             leaves of the command the simulated robot leaves too.
@@ -67,17 +68,21 @@ class ControlledRun(ShortRepr):
     speed: float
     ratio: float
     integral: float
-    forward: float
-    given: bool
+    feedforward: float
+    has_given_gains: bool
     fit: Mapping[str, float | None]
     tracking: Mapping[str, float | None]
     torque: Mapping[str, float | None]
 
     def format_lines(self) -> list[str]:
         """Formats the run as lines of text."""
-        parts = [("integral action", self.integral), ("feedforward", self.forward)]
+        parts = [("integral action", self.integral), ("feedforward", self.feedforward)]
         fed = " and ".join(f"{'with' if there else 'no'} {name}" for name, there in parts)
-        how = "given" if self.given else "nearest to the log of those tried; it is not known"
+        how = (
+            "given"
+            if self.has_given_gains
+            else "nearest to the log of those tried; it is not known"
+        )
         lines = [
             f"under a controller ({how}): speed loops of {self.speed:.3g} Hz, position loops of "
             f"{self.ratio:.2g} times that, {fed}",
@@ -125,7 +130,7 @@ class FreeRun(Result):
             its error is within the bound.
         controlled: under a controller, where commands were logged.
         paths: of the windows.
-        doubts: one sentence each.
+        warnings: one sentence each.
     """
 
     robot: str
@@ -140,7 +145,7 @@ class FreeRun(Result):
     numerical: float
     controlled: ControlledRun | None
     paths: tuple[Path, ...]
-    doubts: tuple[str, ...]
+    warnings: tuple[str, ...]
 
     def __repr__(self) -> str:
         fits = ", ".join(f"{joint.name}: {_format_percent(joint.fit)}" for joint in self.joints)
@@ -159,14 +164,14 @@ class FreeRun(Result):
             if joint.horizon is None and joint.fit is not None:
                 horizon = f"over {self.longest:.2g} s"
             lines.append(
-                f"{joint.name:<8}{_format_percent(joint.fit):>10}{_format_percent(joint.constant_speed):>16}"
-                f"{f'{joint.largest:.2g} {joint.unit}':>18}{horizon:>22}"
-                f"{_format_percent(joint.whole):>14}"
+                f"{joint.name:<8}{_format_percent(joint.fit):>10}{_format_percent(joint.constant_speed_fit):>16}"
+                f"{f'{joint.largest_error:.2g} {joint.unit}':>18}{horizon:>22}"
+                f"{_format_percent(joint.whole_run_fit):>14}"
             )
         lines += ["", self.stability.describe()]
         if self.controlled is not None:
             lines += ["", *self.controlled.format_lines()]
-        return "\n".join([*lines, *([""] if self.doubts else []), *self.doubts])
+        return "\n".join([*lines, *([""] if self.warnings else []), *self.warnings])
 
     def to_json(self) -> dict[str, Any]:
         """Returns the run as plain data."""
@@ -178,11 +183,11 @@ class FreeRun(Result):
                     joint.name: {name: x for name, x in vars(joint).items() if name != "name"}
                     for joint in self.joints
                 },
-                "stability": select_attributes(s, "unstable rate doubling_time seconds")
+                "stability": select_attributes(s, "is_unstable rate doubling_time seconds")
                 | {"steepest": {"rate": s.steepest, "log": s.log, "time": s.steepest_time}},
                 "numerical_error": self.numerical,
                 "controller": self.controlled,
-                "doubts": self.doubts,
+                "warnings": self.warnings,
             }
         )
 

@@ -85,11 +85,11 @@ class ModelComparison(Result):
                     "by_unit": self.by_unit[k],
                     "joints": {
                         item.joint.name: {"relative_error": item.errors[k], "rms": item.rms[k]}
-                        | {"unit": item.joint.effort_unit, "best": item.best == k}
-                        | {"chance": item.p_value}
+                        | {"unit": item.joint.effort_unit, "is_best": item.best == k}
+                        | {"p_value": item.p_value}
                         for item in self.joints
                     },
-                    "best_on": self.find_best_joints(k),
+                    "best_joints": self.find_best_joints(k),
                 }
             )
             for k, name in enumerate(self.names)

@@ -531,7 +531,7 @@ def _build_share_heatmap(comparison: Comparison) -> Heat:
     return _build_heatmap(
         comparison,
         columns,
-        lambda structure: [*(structure.get_share(name) for name in names), structure.together],
+        lambda structure: [*(structure.get_share(name) for name in names), structure.own_motion],
     )
 
 
@@ -544,7 +544,7 @@ def _build_cross_joint_heatmap(comparison: Comparison) -> Heat:
     return _build_heatmap(
         comparison,
         columns,
-        lambda structure: [share for _, share in (*structure.across, *structure.motors)],
+        lambda structure: [share for _, share in (*structure.other_joints, *structure.motors)],
     )
 
 
@@ -573,7 +573,7 @@ def build_share_panels(comparison: Comparison) -> tuple[Panel, Panel]:
     variance_shares = [item.shares for item in items if item.shares is not None]
     repeats = np.array([100.0 * each.repeatable_share for each in variance_shares])
     # a prediction worse than a constant explains nothing: the rest is then all there is
-    explained = np.array([100.0 * max(0.0, each.explained) for each in variance_shares])
+    explained = np.array([100.0 * max(0.0, each.explained_share) for each in variance_shares])
     left = 100.0 - explained
     systematic = left * repeats / 100.0
     repeatable, first = "repeatable, not explained", [("explained", explained, BLUE)]

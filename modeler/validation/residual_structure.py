@@ -115,9 +115,11 @@ class ResidualStructure:
     """
 
     shares: tuple[tuple[str, float], ...]  # coordinate id -> share, in the order of COORDINATES
-    together: float  # by the joint's own motion: its coordinates together, or the best one alone
-    across: tuple[tuple[str, float], ...]  # joint name -> share, by a function of its velocity
-    follows: BestPredictor
+    own_motion: float  # by the joint's own motion: its coordinates together, or the best one alone
+    other_joints: tuple[
+        tuple[str, float], ...
+    ]  # joint name -> share, by a function of its velocity
+    best_predictor: BestPredictor
     motors: tuple[tuple[str, float], ...] = ()  # coupled motor, "5+6" -> share, of its velocity
 
     def get_share(self, coordinate: str) -> float:
@@ -164,9 +166,11 @@ def analyse_structure(prediction: Prediction, joint: int) -> ResidualStructure |
     best = {k: max(alone.get(name, 0.0) for name in by[k]) for k, _ in joints}
     return ResidualStructure(
         shares=tuple((name, (alone | drifts)[name]) for name in names),
-        together=best[joint],
-        across=tuple((name, alone[by[k][2] if k != joint else "velocity"]) for k, name in joints),
-        follows=_find_best_predictor(baseline, best, by, prediction, joint),
+        own_motion=best[joint],
+        other_joints=tuple(
+            (name, alone[by[k][2] if k != joint else "velocity"]) for k, name in joints
+        ),
+        best_predictor=_find_best_predictor(baseline, best, by, prediction, joint),
         motors=tuple((motor.name, alone[motor.name]) for motor in prediction.motors),
     )
 
@@ -474,17 +478,17 @@ class VarianceShares:
     Explained is R^2, and negative for a prediction that is worse than the best constant.
     """
 
-    explained: float
-    systematic: float  # repeatable, and not in the model
-    floor: float  # noise, as far as these logs can show
+    explained_share: float
+    systematic_share: float  # repeatable, and not in the model
+    noise_share: float  # noise, as far as these logs can show
     method: Method  # how the last two were distinguished
     sigma: float | None  # standard error of both; None by the method "smooth"
 
     @property
     def repeatable_share(self) -> float:
         """Returns the repeatable share of what is not explained; 0 if nothing is left."""
-        left = self.systematic + self.floor
-        return self.systematic / left if left > 0.0 else 0.0
+        left = self.systematic_share + self.noise_share
+        return self.systematic_share / left if left > 0.0 else 0.0
 
 
 def split_variance(
@@ -525,7 +529,7 @@ def split_variance(
     if structure is None or energy == 0.0:
         return None if energy else VarianceShares(1.0, 0.0, 0.0, "smooth", None)
     offset = rows.size * float(e[rows].mean()) ** 2 / energy
-    smooth = max(structure.together, structure.follows.share)
+    smooth = max(structure.own_motion, structure.best_predictor.share)
     again = offset + (1.0 - offset) * smooth
     return VarianceShares(1.0 - left, again * left, (1.0 - again) * left, "smooth", None)
 

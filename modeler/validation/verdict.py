@@ -34,7 +34,9 @@ def collect_unit_errors(comparison: Comparison) -> list[tuple[str, float]]:
 def write_verdict(comparison: Comparison) -> tuple[str, ...]:
     """Writes one line per joint: how good, what is left, when it is worst."""
     lines = [write_joint_verdict(item) for item in comparison.joints]
-    lines += [f"Joint {name} is not judged: {reason}." for name, reason in comparison.unjudged]
+    lines += [
+        f"Joint {name} is not judged: {reason}." for name, reason in comparison.excluded_joints
+    ]
     return tuple(lines)
 
 
@@ -94,7 +96,9 @@ def describe_wrong_scale(item: JointComparison) -> str | None:
 def compute_repeatable_share(item: JointComparison) -> float:
     """Returns the repeatable share of the residual; 0 within three standard errors of 0."""
     shares = item.shares
-    if shares is None or (shares.sigma is not None and shares.systematic < 3.0 * shares.sigma):
+    if shares is None or (
+        shares.sigma is not None and shares.systematic_share < 3.0 * shares.sigma
+    ):
         return 0.0
     return shares.repeatable_share
 
@@ -120,7 +124,7 @@ def find_best_other(item: JointComparison) -> tuple[str, float] | None:
     """
     if item.structure is None:
         return None
-    others = [(f"joint {k}", x) for k, x in item.structure.across if k != item.joint.name]
+    others = [(f"joint {k}", x) for k, x in item.structure.other_joints if k != item.joint.name]
     for name, share in item.structure.motors:
         first, _, last = name.replace("+", ", ").rpartition(", ")
         others.append((f"the motor that turns with joints {first} and {last}", share))
@@ -168,18 +172,18 @@ def _describe_pattern(item: JointComparison) -> str | None:
     if structure is None:
         return None
     if best is None:
-        if structure.together < THRESHOLDS.min_pattern_share:
+        if structure.own_motion < THRESHOLDS.min_pattern_share:
             return None
         return (
-            f"{format_percent(structure.together)} of that is a repeatable function of the "
+            f"{format_percent(structure.own_motion)} of that is a repeatable function of the "
             "joint's own motion, spread over several coordinates"
         )
     coordinate, share = best
     text = f"{format_percent(share)} of that is a repeatable function of {coordinate.phrase}"
     if coordinate.id in ("velocity", "direction"):
         text += _describe_region(item.regions)
-    if coordinate.id != "time" and structure.together > share + 0.1:
-        text += f" ({format_percent(structure.together)} with its other coordinates)"
+    if coordinate.id != "time" and structure.own_motion > share + 0.1:
+        text += f" ({format_percent(structure.own_motion)} with its other coordinates)"
     return text
 
 
@@ -229,25 +233,29 @@ def _describe_ripple(item: JointComparison) -> str | None:
 def _describe_predictor(item: JointComparison) -> str | None:
     """What all that was measured predicts, where it is clearly more than single coordinates do."""
     structure = item.structure
-    if structure is None or structure.follows.share < THRESHOLDS.min_pattern_share:
+    if structure is None or structure.best_predictor.share < THRESHOLDS.min_pattern_share:
         return None
-    single = (*structure.shares, *structure.across, *structure.motors)
-    explained_share = max(structure.together, *(share for _, share in single))
+    single = (*structure.shares, *structure.other_joints, *structure.motors)
+    explained_share = max(structure.own_motion, *(share for _, share in single))
     if (
         explained_share > THRESHOLDS.min_pattern_share
-        and structure.follows.share < explained_share + THRESHOLDS.min_further_share
+        and structure.best_predictor.share < explained_share + THRESHOLDS.min_further_share
     ):
         return None
-    name, coordinate = structure.follows.joint, structure.follows.coordinate or "motion"
+    name, coordinate = (
+        structure.best_predictor.joint,
+        structure.best_predictor.coordinate or "motion",
+    )
     whose = f"joint {name}" if name else "the joints together"
-    return f"{format_percent(structure.follows.share)} of that follows the {coordinate} of {whose}"
+    share = format_percent(structure.best_predictor.share)
+    return f"{share} of that follows the {coordinate} of {whose}"
 
 
 def _describe_repeatable(item: JointComparison) -> str | None:
     """The repeatable share, where it is more than the coordinates and the mean account for."""
     share, structure = compute_repeatable_share(item), item.structure
     explained_share = item.bias**2 / item.rms**2 + (
-        structure.together if structure is not None else 0.0
+        structure.own_motion if structure is not None else 0.0
     )
     if (
         item.shares is None

@@ -276,7 +276,12 @@ def _describe_remaining_structure(joints: tuple[validation.JointComparison, ...]
     for item in joints:
         pattern, other = validation.find_best_pattern(item), validation.find_best_other(item)
         if validation.describe_wrong_scale(item) is not None and item.scale is not None:
-            named.append((item.scale.mended, f"joint {item.joint.name} has a wrong sign or scale"))
+            named.append(
+                (
+                    item.scale.variance_reduction,
+                    f"joint {item.joint.name} has a wrong sign or scale",
+                )
+            )
         elif other is not None:
             named.append((other[1], f"joint {item.joint.name} follows the velocity of {other[0]}"))
         elif pattern is not None:
@@ -298,7 +303,7 @@ def _judge_joints(comparison: validation.Comparison) -> list[page.JudgedLine]:
         lines.append(page.JudgedLine(kind, _TAGS[kind], first, rest, f"joint-{item.joint.name}"))
     lines += [
         page.JudgedLine("", "not judged", f"Joint {name}", f"{reason}.")
-        for name, reason in comparison.unjudged
+        for name, reason in comparison.excluded_joints
     ]
     return lines
 
@@ -318,8 +323,8 @@ def _build_table_row(
         f"{item.largest.value:.3g} {unit}",
         f"{item.largest.time:.2f} s of {item.largest.log}",
         validation.format_or_dash(item.r2, ".4f"),
-        format_percent(None if item.shares is None else item.shares.systematic),
-        format_percent(None if item.shares is None else item.shares.floor),
+        format_percent(None if item.shares is None else item.shares.systematic_share),
+        format_percent(None if item.shares is None else item.shares.noise_share),
         f"{item.bias:+.2g} {unit}",
         str(item.samples),
     ]
@@ -384,8 +389,8 @@ def _build_error_table(comparison: validation.Comparison) -> Table:
             item.largest.time,
             item.largest.log,
             item.r2,
-            None if item.shares is None else item.shares.systematic,
-            None if item.shares is None else item.shares.floor,
+            None if item.shares is None else item.shares.systematic_share,
+            None if item.shares is None else item.shares.noise_share,
             item.bias,
         )
         for item in comparison.joints
@@ -457,7 +462,15 @@ def _collect_free_run_tables(free_run: validation.FreeRun) -> Tables:
             "joint, position [%], constant speed [%], whole run [%], horizon [s], "
             "largest error, unit",
             [
-                (j.name, j.fit, j.constant_speed, j.whole, j.horizon, j.largest, j.unit)
+                (
+                    j.name,
+                    j.fit,
+                    j.constant_speed_fit,
+                    j.whole_run_fit,
+                    j.horizon,
+                    j.largest_error,
+                    j.unit,
+                )
                 for j in free_run.joints
             ],
             "position: 100 % is the logged one, 0 % its mean",

@@ -39,7 +39,8 @@ def build_diagnosis_page(
         title=f"{diagnosis.robot}: which effect is missing",
         headline=_write_headline(diagnosis),
         sections=_build_sections(diagnosis),
-        origin=origin or page.Origin(diagnosis.robot, diagnosis.held_out, bool(diagnosis.held_out)),
+        origin=origin
+        or page.Origin(diagnosis.robot, diagnosis.held_out_logs, bool(diagnosis.held_out_logs)),
         facts=_collect_facts(diagnosis),
         provenance=[*diagnosis.sentences, *provenance],
         command="diagnose",
@@ -73,14 +74,15 @@ def _collect_facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
             )
         )
     left = [
-        f"joint {name}: {format_percent(j.systematic / (j.systematic + j.noise))} systematic"
+        f"joint {name}: {format_percent(j.systematic_share / (j.systematic_share + j.noise_share))}"
+        " systematic"
         for name, j in diagnosis.joints.items()
         if j.is_unexplained
     ]
     facts.append(("What is still systematic", ", ".join(left) or "nothing worth a word"))
-    if diagnosis.data:
-        facts.append(("Warnings about the logs", "; ".join(diagnosis.data)))
-    held = ", ".join(diagnosis.held_out) or "none: errors are cross-validated within the logs"
+    if diagnosis.data_warnings:
+        facts.append(("Warnings about the logs", "; ".join(diagnosis.data_warnings)))
+    held = ", ".join(diagnosis.held_out_logs) or "none: errors are cross-validated within the logs"
     facts.append(("Held-out motion", held))
     return facts
 
@@ -88,7 +90,7 @@ def _collect_facts(diagnosis: Diagnosis) -> list[tuple[str, str]]:
 def _describe_runner_up(diagnosis: Diagnosis) -> str:
     """Of the same joint: an effect on another one is no alternative."""
     first = diagnosis.effects[0]
-    rivals = [gain_of for gain_of in diagnosis.rivals if gain_of[1] == first.joint]
+    rivals = [gain_of for gain_of in diagnosis.alternatives if gain_of[1] == first.joint]
     if not rivals:
         return "nothing"
     effect, joint, gain = rivals[0]
@@ -185,7 +187,7 @@ def _build_proposal_sections(diagnosis: Diagnosis) -> list[page.Section]:
     for discovery in diagnosis.discoveries or ():
         name = f"Equations proposed, {format_location(discovery.joint)}"
         if not discovery.proposals:
-            sections.append(page.Section(name, [page.Paragraph(f"{discovery.why}.")]))
+            sections.append(page.Section(name, [page.Paragraph(f"{discovery.reason}.")]))
         for proposal in discovery.proposals:
             item = collect_evidence(proposal.final_search, proposal.final_search.steps[-1])
             sections.append(
@@ -247,7 +249,7 @@ def _build_finding_row(finding: Finding, drawn: bool) -> list[str | page.PageCel
         values,
         *format_error_pair(finding.error_before, finding.error_after),
         page.PageCell(format_percent(finding.gain), max(0.0, finding.gain)),
-        "; ".join(text for text in (finding.evidence, finding.doubt) if text),
+        "; ".join(text for text in (finding.evidence, finding.warning) if text),
     ]
 
 
@@ -257,7 +259,10 @@ def _tabulate_joints(diagnosis: Diagnosis) -> page.PageTable:
         [
             name,
             *format_error_pair(j.error_before, j.error_after),
-            *(format_percent(share, 5) for share in (j.explained, j.systematic, j.noise)),
+            *(
+                format_percent(share, 5)
+                for share in (j.explained_share, j.systematic_share, j.noise_share)
+            ),
         ]
         for name, j in diagnosis.joints.items()
     ]
@@ -278,10 +283,10 @@ def _collect_diagnosis_tables(diagnosis: Diagnosis) -> Tables:
     return {
         "effects": lambda: _tabulate_effects(diagnosis),
         "joints": lambda: _build_joint_table(diagnosis),
-        "rivals": lambda: Table.build(
-            "alternatives of the first effect", "effect, joint, gain", diagnosis.rivals
+        "alternatives": lambda: Table.build(
+            "alternatives to the first effect", "effect, joint, gain", diagnosis.alternatives
         ),
-        "undetectable effects": lambda: Table.build(*blind, describe_undetectable(diagnosis)),
+        "undetectable": lambda: Table.build(*blind, describe_undetectable(diagnosis)),
     }
 
 
@@ -309,7 +314,10 @@ def _build_effect_row(finding: Finding, what: str) -> tuple[Cell, ...]:
 
 
 def _build_joint_table(diagnosis: Diagnosis) -> Table:
-    names = "error_before error_after rms_before rms_after unit explained systematic noise"
+    names = (
+        "error_before error_after rms_before rms_after unit "
+        "explained_share systematic_share noise_share"
+    )
     read = attrgetter(*names.split())
     rows = [(name, *read(joint)) for name, joint in diagnosis.joints.items()]
     return Table.build(

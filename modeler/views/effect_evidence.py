@@ -78,7 +78,7 @@ def build_axis(state: State, pick: Candidate, j: int, effect_torque: np.ndarray)
 
 def _choose_axis(pick: Candidate, j: int) -> SignatureAxis:
     """The axis of the effect; of a joint that it reaches only through others, its own torque."""
-    shows = pick.effect.shows
+    shows = pick.effect.signature_axis
     if pick.is_local and j != pick.index:
         return "itself"
     return "t" if shows == "T" and "T" not in pick.form.names else shows

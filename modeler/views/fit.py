@@ -61,7 +61,9 @@ def tabulate_estimators(trials: Sequence[MethodResult]) -> list[list[str]]:
             rows.append([trial.method, "refused", "", "", "", "", f"{trial.seconds:.2f}"])
             continue
         far = (
-            "-" if trial.farthest is None else f"{trial.farthest[0]} {trial.farthest[1]:.1f} sigma"
+            "-"
+            if trial.largest_shift is None
+            else f"{trial.largest_shift[0]} {trial.largest_shift[1]:.1f} sigma"
         )
         rows.append(
             [
@@ -97,7 +99,7 @@ def collect_remarks(trials: Sequence[MethodResult]) -> list[tuple[str, str]]:
     return [
         (trial.method, remark)
         for trial in trials
-        for remark in ((trial.refusal,) if trial.refusal else trial.remarks)
+        for remark in ((trial.refusal,) if trial.refusal else trial.notes)
     ]
 
 
@@ -115,7 +117,7 @@ def _summarise_fit(fit: FitResult) -> str:
 def _describe_refusal(fit: FitResult) -> str:
     """That a fit is not usable, and why: for a headline; "" of one that is."""
     verdict = fit.verdict
-    return "" if verdict is None or verdict.usable else f"; {verdict.line.partition(';')[0]}"
+    return "" if verdict is None or verdict.valid else f"; {verdict.line.partition(';')[0]}"
 
 
 def collect_fit_tables(fit: FitResult) -> Tables:
@@ -190,7 +192,7 @@ def _collect_model_tables(model: IdentifiedModel) -> Tables:
 
 
 def _tabulate_history(model: IdentifiedModel) -> Table:
-    held = ", ".join(model.history[-1].held_out)
+    held = ", ".join(model.history[-1].held_out_logs)
     return Table.build(
         f"{model.spec.robot}: error after every effect",
         "effect, joint, error, on the fitted logs",
@@ -342,11 +344,11 @@ def _build_sections(model: IdentifiedModel) -> list[page.Section]:
 def _build_verdict_blocks(fit: FitResult) -> list[page.Verdict | page.Items]:
     blocks: list[page.Verdict | page.Items] = []
     if fit.verdict is not None:
-        kind, tag = ("noise", "valid") if fit.verdict.usable else ("pattern", "not valid")
+        kind, tag = ("noise", "valid") if fit.verdict.valid else ("pattern", "not valid")
         lines = [page.JudgedLine(kind, tag, "This fit", fit.verdict.line)]
         lines += [
             page.JudgedLine("other", "doubt", f"Warning {k}", text)
-            for k, text in enumerate(fit.verdict.doubts, start=1)
+            for k, text in enumerate(fit.verdict.warnings, start=1)
         ]
         blocks.append(page.Verdict(lines))
     if fit.sentences:

@@ -65,8 +65,10 @@ def _build_sections(fleet: Fleet) -> list[page.Section]:
             page.Section("All machines", [page.Figure(map_) for map_ in draw_map_pictures(fleet)])
         )
     sections.append(page.Section("What was looked at", [_tabulate_followed(fleet)]))
-    if fleet.doubts:
-        sections.append(page.Section("Doubts", [page.Items([("", line) for line in fleet.doubts])]))
+    if fleet.warnings:
+        sections.append(
+            page.Section("Doubts", [page.Items([("", line) for line in fleet.warnings])])
+        )
     return sections
 
 
@@ -101,7 +103,7 @@ def draw_finding_picture(fleet: Fleet, one: FleetFinding) -> Picture:
     series.append(
         Means(
             f"machine {one.machine}",
-            machine_values.at,
+            machine_values.times,
             machine_values.values,
             2.0 * machine_values.sigmas,
             Style(BLUE, 1.6),
@@ -124,7 +126,7 @@ def draw_quantity_picture(fleet: Fleet, each: QuantityHistory) -> Picture:
     series = tuple(
         Means(
             name,
-            machine_values.at,
+            machine_values.times,
             machine_values.values,
             2.0 * machine_values.sigmas,
             Style(COLORS[k % len(COLORS)], 1.3),
@@ -143,7 +145,7 @@ def draw_quantity_picture(fleet: Fleet, each: QuantityHistory) -> Picture:
 
 def _build_background(others: Sequence[QuantityValues]) -> Curve:
     """All other machines as one broken line."""
-    x = np.concatenate([[*machine_values.at, np.nan] for machine_values in others])
+    x = np.concatenate([[*machine_values.times, np.nan] for machine_values in others])
     y = np.concatenate([[*machine_values.values, np.nan] for machine_values in others])
     return Curve("the others", x, y, Style(GREY, 1.0, 0.7))
 
@@ -216,7 +218,7 @@ def _tabulate_findings(fleet: Fleet) -> Table:
             "before",
             "change",
         ],
-        *["quantity.unit", "change_percent", "score", "chance"],
+        *["quantity.unit", "change_percent", "score", "p_value"],
     )
     return Table.build(
         f"{fleet.robot}: {fleet.verdict}",
@@ -227,7 +229,7 @@ def _tabulate_findings(fleet: Fleet) -> Table:
 
 
 def _tabulate_values(fleet: Fleet) -> Table:
-    read = attrgetter("periods", "at", "values", "sigmas")
+    read = attrgetter("periods", "times", "values", "sigmas")
     rows = [
         (name, period, at, each.quantity.parameter, value, sigma, each.quantity.unit)
         for each in fleet.histories

@@ -148,7 +148,7 @@ def tabulate_nonlinear_parameters(
             units[name],
         )
         for step, units in steps
-        for name, value in step.shapes.items()
+        for name, value in step.nonlinear_parameters.items()
     ]
     if not rows:
         return None
@@ -161,8 +161,8 @@ def tabulate_nonlinear_parameters(
 
 
 def _format_step_spread(step: Addition, name: str) -> str:
-    sigma, interval = step.shape_sigmas.get(name, 0.0), step.shape_intervals.get(name)
-    return _format_spread(step.shapes[name], sigma, interval) or "-"
+    sigma, interval = step.nonlinear_sigmas.get(name, 0.0), step.nonlinear_intervals.get(name)
+    return _format_spread(step.nonlinear_parameters[name], sigma, interval) or "-"
 
 
 def _format_spread(value: float, sigma: float, interval: tuple[float, float] | None) -> str:
@@ -187,7 +187,7 @@ def build_history_page(
         origin: model, logs, and whether some were held out.
     """
     history, robot = model.history, model.spec.robot
-    held, last = history[-1].held_out, history[-1].error
+    held, last = history[-1].held_out_logs, history[-1].error
     fact = f"judged on {', '.join(held)}" if held else "training only: nothing was held out"
     several = len(history[-1].joints) > 1
     return page.Page(
@@ -315,7 +315,7 @@ def _build_sections(model: IdentifiedModel, left_out: Sequence[str]) -> list[pag
     sections.append(page.Section("All values", [tabulate_joint_errors(model.fit), values]))
     if len(history) > 1:
         again = [
-            f"modeler add MODEL {'learned' if step.learned else step.effect}"
+            f"modeler add MODEL {'learned' if step.is_learned else step.effect}"
             + (f" --joint {step.joint}" if step.joint else "")
             + " LOG... --out MODEL"
             for step in history[1:]
@@ -332,13 +332,13 @@ def _tabulate_joints(history: Sequence[Addition]) -> page.PageTable:
     for name in history[-1].joints:
         errors = [_collect_errors(step).get(name) for step in history]
         top = max((e for e in errors if e is not None), default=0.0) or 1.0
-        changed = [" *" if name in step.changed else "" for step in history]
+        changed = [" *" if name in step.changed_joints else "" for step in history]
         cells = [
             page.PageCell("-") if e is None else page.PageCell(format_percent(e) + mark, e / top)
             for e, mark in zip(errors, changed, strict=True)
         ]
         rows.append([name, *cells])
-    steps, held = [format_step_name(step) for step in history], ", ".join(history[-1].held_out)
+    steps, held = [format_step_name(step) for step in history], ", ".join(history[-1].held_out_logs)
     judged = (
         f"the held-out logs {held}" if held else "parts of the fitted logs, each left out in turn"
     )
@@ -376,11 +376,11 @@ def _build_added_blocks(model: IdentifiedModel) -> list[page.Block]:
     blocks += [
         page.Paragraph(
             f"{format_step_name(step)[2:]} moved, in their sigmas: "
-            + ", ".join(f"{name} {by:.2g}" for name, by in step.moved.items())
+            + ", ".join(f"{name} {by:.2g}" for name, by in step.shifts_in_sigmas.items())
             + "."
         )
         for step in steps
-        if step.learned
+        if step.is_learned
     ]
     shapes = tabulate_nonlinear_parameters(
         [(s, _collect_units(s, effects[s.effect], model)) for s in steps]
@@ -397,7 +397,10 @@ def _collect_units(step: Addition, effect: Effect | None, model: IdentifiedModel
         else [shape for form in effect.forms for shape in form.nonlinear_parameters]
     )
     units = {shape.name: shape.get_unit(linear) for shape in shapes}
-    return {name: "" if units.get(name, "1") == "1" else units[name] for name in step.shapes}
+    return {
+        name: "" if units.get(name, "1") == "1" else units[name]
+        for name in step.nonlinear_parameters
+    }
 
 
 def _build_refusal_items(left_out: Sequence[str]) -> page.Items:
@@ -426,9 +429,11 @@ def draw_waterfall_picture(history: Sequence[Addition]) -> Picture:
     names = tuple(_break_step_name(step) for step in history)
     held, fitted = 100.0 * np.array([(s.error, s.training_error) for s in history]).T
     first = (
-        "held-out logs" if history[-1].held_out else "parts of the fitted logs, left out in turn"
+        "held-out logs"
+        if history[-1].held_out_logs
+        else "parts of the fitted logs, left out in turn"
     )
-    learned = np.array([step.learned for step in history])
+    learned = np.array([step.is_learned for step in history])
 
     def build_bars(label: str, errors: np.ndarray, style: Style) -> tuple[Bars, ...]:
         physics = _build_bars(label, names, np.where(learned, np.nan, errors), style)
@@ -491,7 +496,7 @@ def _build_joint_panel(history: Sequence[Addition], name: str, unit: str) -> Pan
     steps = [step for step in history if name in step.joints]
     names = tuple(_break_step_name(step) for step in steps)
     errors = np.array([100.0 * step.joints[name][1] for step in steps])
-    surely = np.array([name in step.changed for step in steps])
+    surely = np.array([name in step.changed_joints for step in steps])
     rises = np.array([step.joints[name][1] > step.joints[name][0] for step in steps])
     kinds = (
         ("no clear change", SAME, ~surely),

@@ -58,8 +58,10 @@ def build_log_page(
                 "Clock", [page.Paragraph(describe_clock(inspection.clock)), page.Figure(picture)]
             )
         )
-    if inspection.suggested:
-        sections.append(page.Section("A [log] to start from", [page.Code(inspection.suggested)]))
+    if inspection.suggested_map:
+        sections.append(
+            page.Section("A [log] to start from", [page.Code(inspection.suggested_map)])
+        )
     return page.Page(
         f"What is in {inspection.name}",
         (str(len(doubts)), "doubts" if len(doubts) != 1 else "doubt"),
@@ -82,14 +84,18 @@ def describe_clock(clock: Clock) -> str:
     parts += [uneven if clock.jitter > 1e-6 else "even"] * (clock.rate > 0.0)
     if clock.gaps:
         parts.append(
-            f"{clock.gaps} gap{'s' * (clock.gaps > 1)}, about {clock.lost} rows lost, "
-            f"the widest {clock.largest:.4g} s at {clock.at:.4g} s"
+            f"{clock.gaps} gap{'s' * (clock.gaps > 1)}, about {clock.lost_rows} rows lost, "
+            f"the widest {clock.largest_gap:.4g} s at {clock.largest_gap_start:.4g} s"
         )
     else:
         parts.append("no gaps")
-    parts.append(f"{clock.repeated} repeated times" if clock.repeated else "no time twice")
-    if clock.back:
-        parts.append(f"{clock.back} steps back: the clock restarts, or rows are not in order")
+    parts.append(
+        f"{clock.repeated_steps} repeated times" if clock.repeated_steps else "no time twice"
+    )
+    if clock.backward_steps:
+        parts.append(
+            f"{clock.backward_steps} steps back: the clock restarts, or rows are not in order"
+        )
     return ", ".join(parts)
 
 
@@ -97,7 +103,7 @@ def tabulate_channels(inspection: LogInspection) -> list[list[str]]:
     """Returns a head and one row a channel, as text."""
     rows = [list(_HEAD)]
     for channel in inspection.channels:
-        remarks = ["never changes"] if channel.constant else []
+        remarks = ["never changes"] if channel.is_constant else []
         remarks += [
             f"stays at {x:.4g} in {format_percent(share)} of the rows"
             for x, share in channel.limits
@@ -105,11 +111,11 @@ def tabulate_channels(inspection: LogInspection) -> list[list[str]]:
         rows.append(
             [
                 channel.name,
-                f"{channel.unit}?" if channel.guessed else channel.unit or "-",
+                f"{channel.unit}?" if channel.is_unit_guessed else channel.unit or "-",
                 f"{channel.low:.5g}",
                 f"{channel.high:.5g}",
                 f"{channel.resolution:.3g}" if channel.resolution else "-",
-                str(channel.missing or "-"),
+                str(channel.missing_rows or "-"),
                 "; ".join(remarks),
             ]
         )
@@ -270,7 +276,7 @@ def _summarise_simulated_log(log: SimulatedLog) -> str:
         f"{log.robot}, simulated: {len(log.time)} samples of {len(log.joints)} joints, "
         f"{float(log.time[-1] - log.time[0]):.4g} s, seed {log.settings.seed}"
     ]
-    for effect in log.truth.hidden:
+    for effect in log.truth.hidden_effects:
         where = f" on {effect.joint}" if effect.joint else ""
         values = ", ".join(f"{name} = {value:.4g}" for name, value in effect.values.items())
         lines.append(f"hidden: {effect.effect}{where}: {values}")
@@ -279,7 +285,9 @@ def _summarise_simulated_log(log: SimulatedLog) -> str:
 
 def _collect_simulated_tables(log: SimulatedLog) -> Tables:
     truth = log.truth
-    rows = [(name, value, name in truth.drawn) for name, value in truth.parameters.items()]
+    rows = [
+        (name, value, name in truth.random_parameters) for name, value in truth.parameters.items()
+    ]
     title = f"{log.robot}: true parameters"
     return {"truth": lambda: Table.build(title, "parameter, value [SI], drawn", rows)}
 

@@ -35,13 +35,13 @@ def build_noise_blocks(bands: Bands | None) -> list[page.Block]:
     picture = draw_noise_picture(bands)
     if bands is None or picture is None:
         return []
-    said = [page.Items([("", line) for line in bands.chosen_by])] if bands.chosen_by else []
+    said = [page.Items([("", line) for line in bands.reasons])] if bands.reasons else []
     return [*said, page.Figure(picture, titled=False)]
 
 
 def draw_noise_picture(bands: Bands | None) -> Picture | None:
     """Draws spectrum and noise floor of each moving joint, and its torque noise if fitted."""
-    moving = [one for one in bands.noise if one.moves and any(one.spectrum)] if bands else []
+    moving = [one for one in bands.noise if one.is_moving and any(one.spectrum)] if bands else []
     if bands is None or not moving:
         return None
     fitted = any(one.torque_noise for one in moving)
@@ -49,7 +49,7 @@ def draw_noise_picture(bands: Bands | None) -> Picture | None:
         (_build_motion_panel(one, bands), *[_build_torque_panel(one, bands)] * fitted)
         for one in moving
     )
-    caption = _write_caption(bands, moving[0].of, fitted)
+    caption = _write_caption(bands, moving[0].quantity, fitted)
     height = 60 + _ROW * len(rows)
     return Picture("noise_of_the_motion", "Noise of the motion", caption, rows, height)
 
@@ -59,17 +59,19 @@ def _build_motion_panel(one: ChannelNoise, bands: Bands) -> Panel:
     f, S = np.array(one.frequency), np.array(one.spectrum)
     f, S = f[S > 0.0], S[S > 0.0]
     ends = min(S.min(initial=np.inf), one.density or np.inf), S.max(initial=one.density)
-    series: list[Series] = [Curve(f"spectrum of the {one.of}", f, S, _SPECTRUM)]
-    if one.density and one.hides_above_hz:
-        along = np.array([one.hides_above_hz, f[-1]])
+    series: list[Series] = [Curve(f"spectrum of the {one.quantity}", f, S, _SPECTRUM)]
+    if one.density and one.noise_crossover_hz:
+        along = np.array([one.noise_crossover_hz, f[-1]])
         series.append(Curve("floor: its noise", along, np.full(2, one.density), _FLOOR))
         series.append(
-            _build_vertical_curve("the noise hides the motion", one.hides_above_hz, ends, _MEETS)
+            _build_vertical_curve(
+                "the noise hides the motion", one.noise_crossover_hz, ends, _MEETS
+            )
         )
     band = np.array([[min(f[0], one.band_hz) / 2.0, one.band_hz]])
-    colour = f", noise of f^-{one.colour:.1f}" if one.colour else ""
-    unit = {4: one.unit, 2: f"({one.unit}/s)", 0: f"({one.unit}/s2)"}[_POWER[one.of]]
-    title, label = f"Joint {one.joint}: {one.of}{colour}", f"density [{unit}^2/Hz]"
+    colour = f", noise of f^-{one.spectral_slope:.1f}" if one.spectral_slope else ""
+    unit = {4: one.unit, 2: f"({one.unit}/s)", 0: f"({one.unit}/s2)"}[_POWER[one.quantity]]
+    title, label = f"Joint {one.joint}: {one.quantity}{colour}", f"density [{unit}^2/Hz]"
     spans = (Span("motion band", band, PALE["blue"]),) if one.band_hz else ()
     every = (*series, *_build_cutoff_curves(bands, ends))
     return Panel(title, "frequency [Hz]", label, every, "log", spans=spans)
@@ -77,7 +79,7 @@ def _build_motion_panel(one: ChannelNoise, bands: Bands) -> Panel:
 
 def _build_torque_panel(one: ChannelNoise, bands: Bands) -> Panel:
     """A f^p, p = 4 of positions, against the level of the torque."""
-    A, T, power = one.torque_of_noise, one.torque_noise, _POWER[one.of]
+    A, T, power = one.noise_torque, one.torque_noise, _POWER[one.quantity]
     if not A or not T or not power:  # without a motor or rows, or with exact accelerations
         return Panel("", "", "", ())
     f, cross, factor = (
@@ -93,7 +95,7 @@ def _build_torque_panel(one: ChannelNoise, bands: Bands) -> Panel:
         max(noise[-1], T * THRESHOLDS.noise_level_factor),
     )
     label = f"density [({'N' if one.unit == 'm' else 'N m'})^2/Hz]"
-    title = f"Joint {one.joint}: torques{', which limits' * (one.joint == bands.limited_by)}"
+    title = f"Joint {one.joint}: torques{', which limits' * (one.joint == bands.limiting_joint)}"
     level = Curve("noise of the torque", np.array([f[0], f[-1]]), np.full(2, T), _TORQUE)
     curves = (
         Curve("torque of that noise", along, noise, _OF_NOISE),
@@ -130,10 +132,10 @@ def _write_caption(bands: Bands, of: str, fitted: bool) -> str:
             "sensor is what is seen. The parallel filter lies no higher than the first crossing of "
             "all joints, unless that is below twice the motion band; the lines above say why."
         )
-    if bands.trembling:
+    if bands.chatter_ratio:
         text += (
             " Here it was lowered further: behind wider filters the model's torque has "
-            f"{bands.trembling:.2g} times the high-frequency content of the measured one."
+            f"{bands.chatter_ratio:.2g} times the high-frequency content of the measured one."
         )
     return text
 

@@ -423,7 +423,7 @@ def suggest_after_fit(
     judge = f"modeler compare {_quote_words([model, *logs])} --report compare.html"
     look = f"modeler diagnose {_quote_words([model, *logs])} --report diagnosis.html"
     verdict = fit.verdict
-    if verdict is not None and not verdict.usable:
+    if verdict is not None and not verdict.valid:
         words = "".join(f" --map {_quote_words([word])}" for word in mapped)
         return [
             f"modeler log {_quote_words(logs[:1])} --robot {_quote_words([robot])}{words}",
@@ -487,7 +487,7 @@ def suggest_after_diagnosis(
     effect = shlex.quote(first.effect) + (
         f" --joint {shlex.quote(first.joint)}" if first.joint else ""
     )
-    effect = "auto" if sum(not f.doubt for f in named) > 1 else effect
+    effect = "auto" if sum(not f.warning for f in named) > 1 else effect
     path = Path(model)
     better = path.with_name(f"{path.name.partition('.')[0]}-improved{''.join(path.suffixes)}")
     words = (

@@ -45,13 +45,13 @@ def build_page_content(
     return {
         "name": skeleton.robot.name,
         "size": posture.size,
-        "stated": bool(skeleton.robot.home),
+        "has_stated_home": bool(skeleton.robot.home),
         "note": posture.note,
-        **select_attributes(posture, "closed held"),
-        "loose": list(posture.loose),
+        **select_attributes(posture, "is_closed is_as_stated"),
+        "loose_joints": list(posture.loose_joints),
         "rows": [_describe_row(row, skeleton.robot) for row in skeleton.rows],
-        "free": list(skeleton.free),
-        "given": list(skeleton.independent_places),
+        "variables": list(skeleton.free),
+        "actuated_variables": list(skeleton.independent_places),
         "ranges": ranges,
         "home": posture.u.tolist(),
         "loops": [
@@ -78,7 +78,7 @@ def _describe_row(row: SkeletonRow, robot: Robot) -> dict[str, Any]:
         "parent": row.parent,
         "kind": format_joint_kind(joint),
         "actuated": joint.actuated,
-        "virtual": row.virtual,
+        "is_virtual": row.is_virtual,
         "unit": joint.unit,
         "cells": dict(row.cells),
         "texts": {name: getattr(joint, name).text for name in row.cells},
@@ -216,7 +216,7 @@ def _format_frame_row(row: SkeletonRow, frame: np.ndarray, posture: Posture) -> 
     joint = row.joint
     kind = format_joint_kind(joint)
     if joint.is_moving:
-        kind += ", actuated" if joint.actuated else ", platform" if row.virtual else ", passive"
+        kind += ", actuated" if joint.actuated else ", platform" if row.is_virtual else ", passive"
     q = _format_number(row.constant + row.coefficients @ posture.u) if joint.is_moving else ""
     return (
         joint.name,
@@ -241,7 +241,7 @@ def _describe_loops(skeleton: Skeleton, posture: Posture) -> list[str]:
             )
             state = f"OPEN by {gap.distance:.3g} m{angle}"
         lines.append(f'loop "{loop.name}": {loop.frame} meets {loop.meets} ({loop.kind}): {state}')
-    if not posture.closed:
+    if not posture.is_closed:
         where = "near [home]: drawn as it is stated"
         if not skeleton.robot.home:
             where = "near all joints at 0: drawn so"
@@ -249,16 +249,16 @@ def _describe_loops(skeleton: Skeleton, posture: Posture) -> list[str]:
             f"the loops do not close {where}; move the joints by hand on the page, close the "
             "loops there, and copy [home]"
         )
-    elif not posture.held:
+    elif not posture.is_as_stated:
         lines.append(
             "the loops do not close with the actuated joints as [home] states them: drawn nearby"
         )
     if posture.note:
         lines.append(posture.note)
-    elif posture.loose:
+    elif posture.loose_joints:
         lines.append(
-            f"joints {', '.join(posture.loose)} could move there with the actuated joints locked: "
-            "[home] is singular, or the loops determine too little"
+            f"joints {', '.join(posture.loose_joints)} could move there with the actuated joints "
+            "locked: [home] is singular, or the loops determine too little"
         )
     return lines
 
@@ -284,12 +284,12 @@ def serialise_posture(skeleton: Skeleton, posture: Posture) -> dict[str, Any]:
         "loops": [
             {"loop": gap.loop.name, **select_attributes(gap.loop, "frame meets")}
             | {"joint": gap.loop.kind, "gap": gap.distance, "angle": gap.angle}
-            | {"closed": _is_closed(gap, posture)}
+            | {"is_closed": _is_closed(gap, posture)}
             for gap in compute_gaps(skeleton, posture.u)
         ],
-        "closed": posture.closed,
-        "as_stated": posture.held,
-        "loose": list(posture.loose),
+        "is_closed": posture.is_closed,
+        "is_as_stated": posture.is_as_stated,
+        "loose_joints": list(posture.loose_joints),
         "note": posture.note,
         "gravity": skeleton.gravity.tolist(),
     }

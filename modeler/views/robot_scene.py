@@ -179,7 +179,7 @@ def build_scene(skeleton: Skeleton, posture: Posture, further: Sequence[Part] = 
     maker = _SceneBuilder(skeleton, posture)
     parts = [*further, *maker.build_base(), *maker.build_platform(), *maker.build_loops()]
     for i, row in enumerate(skeleton.rows):
-        if not row.virtual:
+        if not row.is_virtual:
             parts += [*maker.build_link(i, row), *maker.build_joint(i, row)]
             parts += [*maker.build_frame(i), *maker.build_end(i, row)]
         parts += maker.build_mass(i, row)
@@ -201,7 +201,7 @@ class _SceneBuilder:
         self.skeleton, self.size = skeleton, posture.size
         self.r = [_compute_travel(row, posture.u) for row in skeleton.rows]
         self.frames = compute_poses(skeleton, posture.u)
-        rows = [pair for pair in zip(skeleton.rows, self.r, strict=True) if not pair[0].virtual]
+        rows = [pair for pair in zip(skeleton.rows, self.r, strict=True) if not pair[0].is_virtual]
         lengths = [abs(x) for row, r in rows for x in (row.cells["b"], row.cells["d"], r)]
         lengths = [x for x in lengths if x > 1e-6 * self.size]
         typical = float(np.quantile(lengths, 0.25)) if lengths else self.size
@@ -212,7 +212,7 @@ class _SceneBuilder:
         """Returns the colour of a link."""
         if body == BASE:
             return GROUND
-        if self.skeleton.rows[body].virtual:
+        if self.skeleton.rows[body].is_virtual:
             return PLATFORM
         return BODIES[(self.skeleton.count_depth(body) - 1) % len(BODIES)]
 
@@ -248,7 +248,7 @@ class _SceneBuilder:
         """Of links: the ground lies behind what moves on it, the platform has a face."""
         if body == BASE:
             return "ground"
-        return "platform" if self.skeleton.rows[body].virtual else "links"
+        return "platform" if self.skeleton.rows[body].is_virtual else "links"
 
     def _build_axis_path(self, i: int, row: SkeletonRow, ankle: Point) -> list[tuple[Point, Point]]:
         """The way along z of row j, without what is inside its joint."""
@@ -498,10 +498,10 @@ def collect_joint_points(skeleton: Skeleton, u: np.ndarray) -> np.ndarray:
     frames = compute_poses(skeleton, u)
     points = [np.zeros(3)]
     for i, row in enumerate(skeleton.rows):
-        if row.virtual and row.joint.name != skeleton.robot.platform[-1]:
+        if row.is_virtual and row.joint.name != skeleton.robot.platform[-1]:
             continue
         points.append(frames[i][:3, 3])
-        if not row.virtual:
+        if not row.is_virtual:
             before = np.eye(4) if row.parent == BASE else frames[row.parent]
             points.append((before @ compute_foot_pose(row))[:3, 3])
     return np.unique(np.round(np.array(points), 9), axis=0)

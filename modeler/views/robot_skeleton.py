@@ -26,7 +26,7 @@ class SkeletonRow(ShortRepr):
         rate: of the joint variable in theta (revolute) or r (prismatic); 0 for a fixed frame.
         constant: of the joint variable.
         coefficients: (free,) of the joint variable: it is constant + coefficients @ u.
-        virtual: True for a row that stands for a motion of the platform, not for a joint.
+        is_virtual: True for a row that stands for a motion of the platform, not for a joint.
     """
 
     joint: Joint
@@ -35,7 +35,7 @@ class SkeletonRow(ShortRepr):
     rate: float
     constant: float
     coefficients: np.ndarray
-    virtual: bool
+    is_virtual: bool
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ class Skeleton(ShortRepr):
         """Counts the moving joints between the row and the base, those of the platform apart."""
         count = 0
         while row != BASE:
-            count += self.rows[row].joint.is_moving and not self.rows[row].virtual
+            count += self.rows[row].joint.is_moving and not self.rows[row].is_virtual
             row = self.rows[row].parent
         return count
 
@@ -223,18 +223,18 @@ class Posture:
     Attributes:
         u: (free,) variables.
         size: a length of the robot there, m.
-        closed: True if all loops are closed.
-        held: True if the actuated joints stand where [home] states them.
-        loose: joints that could move there with the actuated joints locked: the posture is
+        is_closed: True if all loops are closed.
+        is_as_stated: True if the actuated joints stand where [home] states them.
+        loose_joints: joints that could move there with the actuated joints locked: the posture is
             singular, or the loops determine too little.
         note: a line on where the posture comes from; "" for [home] as the file states it.
     """
 
     u: np.ndarray
     size: float
-    closed: bool
-    held: bool
-    loose: tuple[str, ...] = ()
+    is_closed: bool
+    is_as_stated: bool
+    loose_joints: tuple[str, ...] = ()
     note: str = ""
 
 

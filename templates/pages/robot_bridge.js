@@ -16,7 +16,7 @@ function tell(modeler, content = {}) {
 function standing() {
   const frames = page.poses().map(({ R, p }) => [...[0, 1, 2].map((i) => [R[0][i], R[1][i], R[2][i], p[i]]), [0, 0, 0, 1]]);
   return {
-    q: Object.fromEntries(robot.free.map((name, k) => [name, page.u[k]])),
+    q: Object.fromEntries(robot.variables.map((name, k) => [name, page.u[k]])),
     frames: Object.fromEntries(robot.rows.map((row, i) => [row.name, frames[i]])),
     gaps: page.gaps(),
   };

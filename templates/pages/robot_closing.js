@@ -15,14 +15,14 @@ const frameOf = (poses, number) => (number < 0 ? BASE : poses[number]);
 // Residuals f and, by free variable, their derivatives: [f, J], J by rows.
 function equations(robot, u) {
   const poses = posesAt(robot, u), f = [], J = [];
-  const still = { turn: robot.free.map(() => [0, 0, 0]), travel: robot.free.map(() => [0, 0, 0]) };
+  const still = { turn: robot.variables.map(() => [0, 0, 0]), travel: robot.variables.map(() => [0, 0, 0]) };
   for (const loop of robot.loops) {
     const a = frameOf(poses, loop.frame), b = frameOf(poses, loop.meets);
     const of = (n) => (n < 0 ? still : motions(robot, poses, n));
     const ma = of(loop.frame), mb = of(loop.meets);
     const way = times(1 / robot.size, minus(b.p, a.p));
-    const rate = robot.free.map((_, k) => times(1 / robot.size, minus(mb.travel[k], ma.travel[k])));
-    const z = a.R[2], zRate = robot.free.map((_, k) => cross(ma.turn[k], z));
+    const rate = robot.variables.map((_, k) => times(1 / robot.size, minus(mb.travel[k], ma.travel[k])));
+    const z = a.R[2], zRate = robot.variables.map((_, k) => cross(ma.turn[k], z));
     const add = (values, rates) => values.forEach((value, i) => {
       f.push(value);
       J.push(rates.map((r) => r[i]));
@@ -73,7 +73,7 @@ function gapsAt(robot, u) {
 const largest = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
 
 const scales = (robot, places) => places.map((k) => {
-  const row = robot.rows.find((each) => each.name === robot.free[k]);
+  const row = robot.rows.find((each) => each.name === robot.variables[k]);
   return row.unit === "rad" ? 1 : robot.size;
 });
 
@@ -137,7 +137,7 @@ function closedFrom(robot, start, places) {
 function sameMode(robot, before, after, places) {
   const scale = scales(robot, places);
   if (places.some((k, i) => Math.abs(after[k] - before[k]) > JUMP * scale[i])) return false;
-  if (places.length === 0 || robot.loose.length > 0) return true; // no sign to watch
+  if (places.length === 0 || robot.loose_joints.length > 0) return true; // no sign to watch
   const [old, now] = [before, after].map((u) => columns(robot, equations(robot, u)[1], places));
   const M = product(old, now);
   return solved(M, M.map(() => 0)).sign > 0;
@@ -146,16 +146,16 @@ function sameMode(robot, before, after, places) {
 // From the closed posture u towards values of the actuated joints, in small steps along the loops:
 // {u, reached}; u is the last closed posture on the way.
 function ledTo(robot, start, values) {
-  const follow = robot.free.map((_, k) => k).filter((k) => !robot.given.includes(k));
-  const way = robot.given.map((k, i) => values[i] - start[k]);
-  const scale = scales(robot, robot.given);
+  const follow = robot.variables.map((_, k) => k).filter((k) => !robot.actuated_variables.includes(k));
+  const way = robot.actuated_variables.map((k, i) => values[i] - start[k]);
+  const scale = scales(robot, robot.actuated_variables);
   const length = largest(way.map((x, i) => x / scale[i]));
   let u = [...start], done = 0, step = STRIDE;
   if (robot.loops.length === 0) step = length;
   while (done < length) {
     const next = Math.min(length, done + step);
     const trial = [...u];
-    robot.given.forEach((k, i) => { trial[k] = start[k] + (way[i] * next) / length; });
+    robot.actuated_variables.forEach((k, i) => { trial[k] = start[k] + (way[i] * next) / length; });
     const found = closedFrom(robot, trial, follow);
     if (found !== null && sameMode(robot, u, found, follow)) {
       u = found;

@@ -46,7 +46,7 @@ function posesAt(robot, u) {
 
 // How frame `number` moves with every free variable: turns and travels of its origin.
 function motions(robot, poses, number) {
-  const count = robot.free.length;
+  const count = robot.variables.length;
   const turn = Array.from({ length: count }, () => [0, 0, 0]);
   const travel = Array.from({ length: count }, () => [0, 0, 0]);
   for (let k = number; k >= 0; k = robot.rows[k].parent) {

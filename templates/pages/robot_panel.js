@@ -7,7 +7,7 @@ const made = (tag, fields = {}, ...children) => {
   node.append(...children);
   return node;
 };
-const rowOf = (k) => robot.rows.find((row) => row.name === robot.free[k]);
+const rowOf = (k) => robot.rows.find((row) => row.name === robot.variables[k]);
 const rounded = (x, digits) => (Math.abs(x) < 1e-12 ? "0" : String(+x.toPrecision(digits)));
 const minusSign = (text) => text.replaceAll("-", "−");
 const degrees = (x) => `${minusSign(((180 / Math.PI) * x).toFixed(1))}°`;
@@ -16,7 +16,7 @@ const told = (row, q) => (row.unit === "rad" ? degrees(q) : `${minusSign((1000 *
 const page = {
   robot,
   u: [...robot.home],
-  byHand: !robot.closed,
+  byHand: !robot.is_closed,
   view: new View(element("picture"), robot),
   sliders: [],
   poses: () => posesAt(robot, page.u),
@@ -24,8 +24,8 @@ const page = {
 };
 window.modelerShow = page;
 
-const every = () => robot.free.map((_, k) => k);
-const follow = () => every().filter((k) => !robot.given.includes(k));
+const every = () => robot.variables.map((_, k) => k);
+const follow = () => every().filter((k) => !robot.actuated_variables.includes(k));
 
 let waiting = false;
 function redraw() {
@@ -46,24 +46,24 @@ page.move = (k, value) => {
     show();
     return true;
   }
-  const values = robot.given.map((g) => (g === k ? value : page.u[g]));
+  const values = robot.actuated_variables.map((g) => (g === k ? value : page.u[g]));
   const { u, reached } = ledTo(robot, page.u, values);
   page.u = u;
-  say(reached ? "" : `cannot close there: q${robot.free[k]} stops at ${rounded(u[k], 5)} ${rowOf(k).unit}`);
+  say(reached ? "" : `cannot close there: q${robot.variables[k]} stops at ${rounded(u[k], 5)} ${rowOf(k).unit}`);
   show(reached ? null : k);
   return reached;
 };
 
 // Move joints by name at once: {joint: value}; others stay, or follow where loops tie them.
 page.pose = (q) => {
-  const want = (k) => (Number.isFinite(q[robot.free[k]]) ? q[robot.free[k]] : page.u[k]);
+  const want = (k) => (Number.isFinite(q[robot.variables[k]]) ? q[robot.variables[k]] : page.u[k]);
   if (page.byHand || robot.loops.length === 0) {
     page.u = every().map(want);
     say("");
     show();
     return true;
   }
-  const values = robot.given.map(want);
+  const values = robot.actuated_variables.map(want);
   let found = ledTo(robot, page.u, values);
   if (!found.reached) {
     const around = ledTo(robot, robot.home, values);
@@ -78,10 +78,10 @@ page.pose = (q) => {
 // Another robot in the same picture: the eye stays where it is, and joints that were moved too.
 page.replace = (content) => {
   const moved = page.u.some((x, k) => x !== robot.home[k]);
-  const q = moved ? Object.fromEntries(robot.free.map((name, k) => [name, page.u[k]])) : {};
+  const q = moved ? Object.fromEntries(robot.variables.map((name, k) => [name, page.u[k]])) : {};
   robot = page.robot = content;
   page.u = [...robot.home];
-  page.byHand = !robot.closed;
+  page.byHand = !robot.is_closed;
   page.view.replace(robot);
   element("mdh")?.remove();
   element("note").textContent = robot.note;
@@ -124,7 +124,7 @@ function slider(k) {
 }
 
 function list() {
-  page.sliders = (page.byHand ? every() : robot.given).map(slider);
+  page.sliders = (page.byHand ? every() : robot.actuated_variables).map(slider);
   element("moved").replaceChildren(...page.sliders.map((s) => s.line));
   element("open").checked = page.byHand;
   element("close").hidden = !page.byHand;
@@ -186,7 +186,7 @@ function tip(number, x, y) {
     cells.push(made("tr", {}, made("td", { textContent: row.letters[name] }), made("td", { textContent: text }),
       made("td", { textContent: same || unit }), made("td", { textContent: unit === "rad" ? degrees(value) : "" })));
   }
-  const kind = row.kind === "fixed" ? "fixed frame" : `${row.kind}, ${row.actuated ? "actuated" : row.virtual ? "platform" : "passive"}`;
+  const kind = row.kind === "fixed" ? "fixed frame" : `${row.kind}, ${row.actuated ? "actuated" : row.is_virtual ? "platform" : "passive"}`;
   box.replaceChildren(made("b", { textContent: `row ${row.name} · on ${row.antecedent === "0" ? "the base" : row.antecedent} · ${kind}` }), made("table", {}, ...cells));
   const room = page.view;
   box.style.left = `${Math.max(0, Math.min(x + 14, room.width - box.offsetWidth - 6))}px`;
@@ -286,7 +286,7 @@ function buttons() {
   element("fit").addEventListener("click", fit);
   element("home").addEventListener("click", () => {
     page.u = [...robot.home];
-    page.byHand = !robot.closed;
+    page.byHand = !robot.is_closed;
     say("");
     list();
     show();
@@ -335,7 +335,7 @@ function close() {
 }
 
 page.homeLines = () => ["[home]", ...every().filter((k) => Math.abs(page.u[k]) > 1e-12)
-  .map((k) => `q${robot.free[k]} = ${Number.isInteger(+page.u[k].toPrecision(12)) ? page.u[k].toFixed(1) : rounded(page.u[k], 12)}`)].join("\n");
+  .map((k) => `q${robot.variables[k]} = ${Number.isInteger(+page.u[k].toPrecision(12)) ? page.u[k].toFixed(1) : rounded(page.u[k], 12)}`)].join("\n");
 
 function copy() {
   const area = made("textarea", { value: `${page.homeLines()}\n` });
@@ -353,7 +353,7 @@ function key() {
   if (robot.loops.length) entries.push(["#b0508a", "joint that closes a loop"]);
   if (only("platform")) entries.push(["#56b4e9", "platform"]);
   entries.push(["#cc2222", "x"], ["#2a8f2a", "y"], ["#1f4fd0", "z, the joint's axis"]);
-  const used = robot.rows.some((row) => row.kind !== "fixed" && !row.actuated && !row.virtual);
+  const used = robot.rows.some((row) => row.kind !== "fixed" && !row.actuated && !row.is_virtual);
   element("key").replaceChildren(...entries.filter(([, text]) => used || text !== "passive joint").map(([color, text]) => {
     const patch = made("span");
     patch.style.background = color;
@@ -373,10 +373,10 @@ document.querySelectorAll("tr[data-row]").forEach((line) => {
 // All that stands beside the picture, for the robot as it is now.
 function begin() {
   element("loops").hidden = element("hand").hidden = robot.loops.length === 0;
-  const home = robot.stated ? "[home]: drawn as it is stated" : "all joints at 0: drawn so";
-  say(!robot.closed ? `the loops do not close near ${home}`
-    : !robot.held ? "the loops do not close with the actuated joints as [home] states them: drawn nearby"
-    : robot.loose.length ? `${robot.loose.map((name) => `q${name}`).join(", ")} could move here with the actuated joints locked` : "");
+  const home = robot.has_stated_home ? "[home]: drawn as it is stated" : "all joints at 0: drawn so";
+  say(!robot.is_closed ? `the loops do not close near ${home}`
+    : !robot.is_as_stated ? "the loops do not close with the actuated joints as [home] states them: drawn nearby"
+    : robot.loose_joints.length ? `${robot.loose_joints.map((name) => `q${name}`).join(", ")} could move here with the actuated joints locked` : "");
   key();
   list();
   show();

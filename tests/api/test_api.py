@@ -139,9 +139,9 @@ def test_home_is_that_of_the_command(tmp_path: Path) -> None:
 
 def test_physical_values_are_those_of_the_command(tmp_path: Path, model) -> None:
     found = api.physical(model)
-    known = ",".join(f"{letter}=0.1" for letter in found.find_known_sets().easiest[0])
+    known = ",".join(f"{letter}=0.1" for letter in found.find_known_sets().easiest_sets[0])
     values = found.compute_values(known)
-    assert found.derive_formulas(",".join(found.find_known_sets().easiest[0])).steps
+    assert found.derive_formulas(",".join(found.find_known_sets().easiest_sets[0])).steps
     with pytest.raises(DataError, match="expected a model"):
         api.physical(api.load("two-link")).compute_values(known)
     api.save(model, tmp_path / "m.json")

@@ -27,7 +27,7 @@ def test_a_fit_that_is_not_usable_says_so_wherever_it_is_seen(run, model) -> Non
     noise = np.random.default_rng().normal(size=run["tau"].shape)
     with pytest.warns(FitWarning) as seen:
         spoilt = modeler.identify("two-link", run | {"tau": 20.0 * noise})
-    assert spoilt.fit.verdict is not None and not spoilt.fit.verdict.usable
+    assert spoilt.fit.verdict is not None and not spoilt.fit.verdict.valid
     (warning,) = [each for each in seen if each.category is FitWarning]
     assert Path(warning.filename) == Path(__file__)  # the line that called
     line = spoilt.fit.verdict.line.partition(";")[0]

@@ -128,7 +128,7 @@ def test_errors_and_what_is_missing(model: md.Model, place: Path, logs: list[str
     better = model.add("load_friction", joint=2)
     assert isinstance(better, md.Model) and better.held_out == model.held_out
     assert better.error() < 0.5 * model.error()
-    assert better.history[-1].held_out == ("wed.parquet",)
+    assert better.history[-1].held_out_logs == ("wed.parquet",)
     auto = model.add("auto", held_out=held)
     assert [s.effect for s in auto.history] == [s.effect for s in better.history]
     assert md.remove_last(better, logs).beta == pytest.approx(model.beta)
@@ -214,7 +214,7 @@ def test_logs_with_a_load_are_not_taken_for_bare_ones() -> None:
     bare = md.simulate(robot, duration=4.0, seed=61)
     loaded = md.simulate(robot, duration=4.0, seed=62, hide=["payload"])
     made = md.identify(robot, bare, load=md.Load(loaded, mass=None))
-    true = {effect.effect: effect.values for effect in loaded.truth.hidden}["payload"]
+    true = {effect.effect: effect.values for effect in loaded.truth.hidden_effects}["payload"]
     assert made["M2_load"].value == pytest.approx(true["mass"], rel=0.05)
     for act in (made.missing, lambda: made.add("spring"), lambda: made.resid):
         with pytest.raises(DataError, match="some logs of the fit carried a load, which is no p"):

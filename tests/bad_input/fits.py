@@ -40,7 +40,7 @@ def unusable_or_true(result: Result) -> None:
     found = _fitted(result)
     worst, off = farthest(found)
     raw = _written(result)
-    doubts = raw.get("doubts", [])
-    assert off < 0.2 or raw.get("usable") is False or doubts, (
+    doubts = raw.get("warnings", [])
+    assert off < 0.2 or raw.get("valid") is False or doubts, (
         f"{worst} = {found[worst]:.4g} for {TRUE[worst]:g} without a warning"
     )

@@ -180,8 +180,8 @@ def check_diagnosis(text: str, diagnosed: dict[str, Any]) -> None:
         ties = (f"{tie['effect']} on joint {tie['joint']}" for tie in effect["ties"])
         values = (f"{name} = {value:.4g}" for name, value in effect["parameters"].items())
         assert all(words in text for words in (row, *ties, *values))
-    assert diagnosed["blind_spots"]
-    for spot in diagnosed["blind_spots"]:
+    assert diagnosed["undetectable"]
+    for spot in diagnosed["undetectable"]:
         assert spot["effect"] + (f"@{spot['joint']}:" if spot["joint"] else ":") in text
     for words in ("model: demo-arm, 25 base parameters, fitted on train.parquet",
                   "logs explained: train.parquet", "Held-out motion other.parquet"):  # fmt: skip

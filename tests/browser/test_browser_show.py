@@ -45,7 +45,7 @@ def shown(browser: Chromium, place: Path, text: str, size: tuple[int, int] = WID
 def moved(browser: Chromium, joint: str, value: float) -> np.ndarray:
     """The slider of a joint dragged to a value and let go; u afterwards."""
     browser.value(
-        f"(() => {{ const s = modelerShow.sliders.find((s) => modelerShow.robot.free[s.k] === "
+        f"(() => {{ const s = modelerShow.sliders.find((s) => modelerShow.robot.variables[s.k] === "
         f"'{joint}'); s.range.min = Math.min(s.range.min, {value}); "
         f"s.range.max = Math.max(s.range.max, {value}); s.range.value = {value};"
         "for (const name of ['input', 'change']) s.range.dispatchEvent(new Event(name)); })()"
@@ -188,7 +188,7 @@ def test_home_is_copied_as_lines_of_the_file(browser, tmp_path) -> None:
     text = f"{before}{lines}\n{after[after.index('[effects]') :]}"
     skeleton = build_skeleton(parse_robot_text(text, "copied"))
     home = find_home_posture(skeleton)
-    assert home.closed and home.held
+    assert home.is_closed and home.is_as_stated
     np.testing.assert_allclose(home.u, u, atol=1e-9)
 
 

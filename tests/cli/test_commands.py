@@ -71,9 +71,11 @@ def test_fit_and_compare(capsys, two_link, tmp_path):
     assert set(raw["joints"]) == {"1", "2"}
     for joint in raw["joints"].values():
         assert joint["relative_error"] < 0.01 and {"rms", "max", "r2"} <= set(joint)
-        assert joint["explained"] == joint["r2"] and joint["samples"] < 200
-        assert joint["systematic"] is joint["floor"] is joint["method"] is None  # too few samples
-    assert raw["by_log"][0]["log"] == "held.parquet" and raw["repeated"] == []
+        assert joint["explained_share"] == joint["r2"] and joint["samples"] < 200
+        assert (
+            joint["systematic_share"] is joint["noise_share"] is joint["method"] is None
+        )  # too few samples
+    assert raw["by_log"][0]["log"] == "held.parquet" and raw["repeated_motions"] == []
     assert "Joint 1: " in out and "repeatable" in out.splitlines()[0]
     assert "<html" in (tmp_path / "page.html").read_text()[:500]
 

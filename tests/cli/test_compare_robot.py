@@ -63,7 +63,7 @@ def test_the_values_of_the_file_are_compared_before_any_fit(folder, capsys) -> N
     zero = "taken as 0: rotor_inertia, viscous, coulomb, offset of joint 1, 2"
     assert zero in printed
     before = json.loads(Path("before.json").read_text())
-    assert any("taken as 0" in line for line in before["doubts"])
+    assert any("taken as 0" in line for line in before["warnings"])
     # By hand: the torque that the file's numbers give, of the torque that was measured.
     assert 0.05 < before["joints"]["1"]["relative_error"] < 1.0
     assert main(next_line(printed)) == 0

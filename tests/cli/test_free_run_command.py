@@ -30,8 +30,8 @@ def test_text_json_and_pictures(capsys, slide: Path) -> None:
     assert "emps: free run in windows of 0.5 s" in page and "Joint 1: measured and free" in page
     result = json.loads((slide / "f.json").read_text())
     joint = result["joints"]["1"]
-    assert joint["fit"] > 99.0 > joint["constant_speed"] and joint["unit"] == "m"
-    assert result["stability"]["unstable"] is False and "controller" in result
+    assert joint["fit"] > 99.0 > joint["constant_speed_fit"] and joint["unit"] == "m"
+    assert result["stability"]["is_unstable"] is False and "controller" in result
     assert {p.name for p in (slide / "p").iterdir()} == {
         f"joint_1_free_run.{kind}" for kind in ("png", "svg", "csv")
     }

@@ -76,7 +76,7 @@ def test_the_c_predicts_what_the_model_does(place, fitted, capsys, tmp_path):
     assert {name: (tmp_path / "c" / name).read_text() for name in result["files"]} == emitted.files
     made = Functions(emitted)
     assert result["fitted_signature"] == made.text("fitted_signature")
-    assert result["usable"] is True and result["doubts"] == []
+    assert result["valid"] is True and result["warnings"] == []
     assert f"with the fitted values, signature {result['fitted_signature']}:" in out
     assert "two_link_fitted_gravity: g(q) = tau(q, 0, 0) without effects (5 additions" in out
     assert "TWO_LINK_COULOMB_WIDTH_1, TWO_LINK_COULOMB_WIDTH_2" in out

@@ -31,7 +31,7 @@ def test_modes_are_told(crank, capsys) -> None:
     assert out.count("as [home] of the file") == 1
     assert '  q1 = "pi/2"\n  q2 = -1.860548\n  q3 = 0.33541\n' in out
     result = json.loads(Path("modes.json").read_text())
-    assert result["chosen"] == result["of_the_file"] == "A"
+    assert result["chosen_mode"] == result["as_given"] == "A"
     assert [mode["letter"] for mode in result["modes"]] == ["A", "B"]
     assert result["modes"][1]["home"]["3"] == pytest.approx(-0.33541, abs=1e-5)
     assert Path("crank.toml").read_text() == CRANK

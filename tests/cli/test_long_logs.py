@@ -79,9 +79,9 @@ def test_a_long_log_is_fitted_in_chunks(place, chunked, monkeypatch, capsys):
     for one, other in zip(fit["parameters"], whole["parameters"], strict=True):
         # rows lie elsewhere between the samples
         assert abs(one["value"] - other["value"]) < 3.0 * other["sigma"]
-    assert fit["verdict"] == whole["verdict"] or fit["usable"] == whole["usable"]
+    assert fit["verdict"] == whole["verdict"] or fit["valid"] == whole["valid"]
     logs = [json.loads((place / f"{n}.json").read_text())["logs"][0] for n in ("chunked", "whole")]
-    one, other = ({k: log[k] for k in ("rows", "content", "start", "end")} for log in logs)
+    one, other = ({k: log[k] for k in ("rows", "fingerprint", "start", "end")} for log in logs)
     assert one == other
 
 
@@ -119,7 +119,15 @@ def test_where_only_the_whole_log_will_do_it_is_read_whole(place, chunked, tmp_p
 
 def counted(found):
     """What comes of sums over rows: all but shares by functions that were fitted to them."""
-    left = ("structure", "systematic", "systematic_sigma", "floor", "orders", "spectrum", "bias")
+    left = (
+        "structure",
+        "systematic_share",
+        "systematic_sigma",
+        "noise_share",
+        "orders",
+        "spectrum",
+        "bias",
+    )
     joints = {name: {k: v for k, v in joint.items() if k not in left}
               for name, joint in found["joints"].items()}  # fmt: skip
     return flat({"joints": joints, **{k: found[k] for k in ("samples", "relative_error", "by_log",
@@ -202,10 +210,13 @@ def test_a_long_log_is_looked_at_in_blocks(place, chunked, tmp_path, monkeypatch
     assert f"long log: all {ROWS} rows are read for ranges" in out
     monkeypatch.setattr("modeler.api.log_maps.LONG", 10**9)
     whole, _ = told_of(words, tmp_path / "whole", capsys)
-    assert found["clock"]["gaps"] == 2 and found["clock"]["at"] == whole["clock"]["at"] == 5.115
+    assert (
+        found["clock"]["gaps"] == 2
+        and found["clock"]["largest_gap_start"] == whole["clock"]["largest_gap_start"] == 5.115
+    )
     del found["notes"], whole["notes"]
     del found["marks"], whole["marks"]  # of long logs only what their first look shows has a place
-    assert all(any(c[what] for c in whole["channels"]) for what in ("limits", "missing"))
+    assert all(any(c[what] for c in whole["channels"]) for what in ("limits", "missing_rows"))
     noises = [one.pop("bands")["noise"] for one in (found, whole)]
     for some, every in zip(*noises, strict=True):  # of the windows
         assert some["deviation"] == pytest.approx(every["deviation"], rel=0.5)

@@ -78,7 +78,8 @@ def test_a_moment_of_inertia_below_zero_is_not_told(capsys, tmp_path, two_link):
         rows_by_mass[m2] = {row["parameter"]: row for row in raw["values"]["parameters"]}
     light = rows_by_mass[1e-3]["Izz2"]
     assert (
-        light["value"] is None and "is not a possible moment of inertia: a known" in light["doubt"]
+        light["value"] is None
+        and "is not a possible moment of inertia: a known" in light["warning"]
     )
     assert rows_by_mass[1e3]["Izz2"]["value"] > 0
 
@@ -88,7 +89,7 @@ def test_formulas_in_three_forms(capsys, tmp_path):
     out, raw = physical(capsys, tmp_path, *known)
     assert "ct2 = -PG2/cm" in out and "PG1 = MY2R" in out
     assert "17 of 17 unknown parameters follow; each formula holds exactly for 20 of 20" in out
-    assert raw["missing"] == raw["surplus"] == 0 and len(raw["formulas"]) == 17
+    assert raw["missing_count"] == raw["redundant_count"] == 0 and len(raw["formulas"]) == 17
     out = answer(capsys, "physical", *known, "--format", "latex")
     assert r"\mathit{ct}_{2} ={}& \frac{-\mathit{PG}_{2}}{\mathit{cm}} \\" in out
 
@@ -134,7 +135,9 @@ def test_a_fit_against_cad(capsys, tmp_path, wrist):
     out, raw = physical(capsys, tmp_path, file, "--cad", cad)
     assert "suspicious" in out and "all agree if cm = " in out
     best = raw["cad"]["explanations"][0]
-    assert best["letters"] == ["cm"] and best["fitted"][0] == pytest.approx(truth["cm"], rel=0.01)
+    assert best["letters"] == ["cm"] and best["fitted_values"][0] == pytest.approx(
+        truth["cm"], rel=0.01
+    )
 
 
 def test_parameters_that_a_fit_set_aside_are_not_told(capsys, tmp_path, wrist):
@@ -158,7 +161,7 @@ def test_sets_of_a_robot(capsys, tmp_path):
     assert "0 of 480700 sets of 7 known parameters suffice" in out
     out, raw = physical(capsys, tmp_path, "two-link", "--sets")
     assert "two-link: 21 of 28 sets of 2 known parameters suffice" in out
-    assert raw["sets"]["count"] == 21 and raw["sets"]["easiest"] == [["m1", "m2"]]
+    assert raw["sets"]["count"] == 21 and raw["sets"]["easiest_sets"] == [["m1", "m2"]]
 
 
 @pytest.mark.rotating("long tests of cli")

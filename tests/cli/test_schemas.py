@@ -26,7 +26,7 @@ FIT = {
     "joints": {"": {"relative_error": 0, "rms": 0}},
     "parameters": [{"name": 0, "value": 0, "sigma": 0, "relative_sigma_percent": 0,
                     "essential": 0}],
-    "usable": 0, "doubts": 0, "bands": {"noise": 0, "chosen_by": 0},
+    "valid": 0, "warnings": 0, "bands": {"noise": 0, "reasons": 0},
 }  # fmt: skip
 CONTRACT = {
     "derive": {
@@ -44,8 +44,8 @@ CONTRACT = {
     "diagnose": {
         "verdict": 0,
         "effects": [{"effect": 0, "joint": 0, "status": 0, "gain": 0, "error_before": 0,
-                     "error_after": 0, "parameters": 0, "ties": 0, "evidence": 0, "looks": 0}],
-        "blind_spots": [EFFECT_AT], "joints": 0,
+                     "error_after": 0, "parameters": 0, "ties": 0, "evidence": 0, "splits": 0}],
+        "undetectable": [EFFECT_AT], "joints": 0,
     },
     "add": {**FIT, "waterfall": [{"effect": 0, "joint": 0, "error": 0}]},
 }  # fmt: skip

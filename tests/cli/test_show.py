@@ -43,12 +43,12 @@ def test_a_page_needs_nothing_else(workdir: Path, name: str) -> None:
     robot, result = read_robot(name), json.loads((workdir / "p.json").read_text())
     for joint in robot.joints:
         assert f">{joint.name}</td>" in page
-    assert result["closed"] and result["as_stated"] and result["page"] == "p.html"
+    assert result["is_closed"] and result["is_as_stated"] and result["page"] == "p.html"
     assert [frame["name"] for frame in result["frames"]] == [joint.name for joint in robot.joints]
     assert set(result["home"]) == {joint.variable for joint in robot.moving_joints}
     assert len(result["loops"]) == len(robot.loops)
     for loop in result["loops"]:
-        assert loop["closed"] and loop["gap"] < 1e-9 and loop["angle"] < 1e-7
+        assert loop["is_closed"] and loop["gap"] < 1e-9 and loop["angle"] < 1e-7
     if robot.loops:
         by_name = {frame["name"]: np.array(frame["pose"]) for frame in result["frames"]}
         loop = result["loops"][0]
@@ -101,7 +101,7 @@ def test_a_home_that_is_found_is_shown_and_said(workdir, capsys) -> None:
     assert note in (workdir / "b.html").read_text()
     found = complete_home(read_robot("bare.toml")).robot.home
     assert {name: result["home"][f"q{name}"] for name in found} == pytest.approx(found, abs=1e-5)
-    assert result["closed"] and result["loose"] == []
+    assert result["is_closed"] and result["loose_joints"] == []
     out = answer(capsys, "show", "five-bar", "--out", "b.html", "--json", "b.json")
     assert "found" not in out
     assert json.loads((workdir / "b.json").read_text())["note"] == ""
@@ -118,7 +118,7 @@ def test_what_cannot_be_derived_is_shown_with_the_reason(workdir, capsys) -> Non
 
 def test_a_robot_is_drawn_from_python(workdir) -> None:
     shown = show(load("five-bar"), page="p.html", picture="p.svg")
-    assert shown.posture.closed and shown.posture.note == ""
+    assert shown.posture.is_closed and shown.posture.note == ""
     assert sorted(path.name for path in workdir.iterdir()) == ["p.html", "p.svg"]
     with pytest.raises(DataError, match=r"^p.bmp: got .bmp; expected a name that ends in .png"):
         show(load("five-bar"), picture="p.bmp")
@@ -133,7 +133,7 @@ def test_loops_that_do_not_close_are_shown_and_told(workdir, capsys) -> None:
     assert 'loop "tip": 31 meets 32 (revolute): OPEN by ' in out
     assert "the loops do not close near [home]: drawn as it is stated" in out
     result = json.loads((workdir / "b.json").read_text())
-    assert not result["closed"] and result["loops"][0]["gap"] > 3.0
+    assert not result["is_closed"] and result["loops"][0]["gap"] > 3.0
     assert "#e00000" in (workdir / "b.svg").read_text()  # the gap, in red
 
 

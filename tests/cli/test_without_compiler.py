@@ -100,7 +100,7 @@ def test_these_say_what_to_install(workdir, name, capsys) -> None:
 def test_a_log_tells_that_no_fit_was_tried(workdir, capsys) -> None:
     """All else of the log is as with a compiler; a mapping is not written untried."""
     assert main(["log", "a.parquet", "--robot", "two-link", "--json", "log.json"]) == 0
-    doubts = json.loads((workdir / "log.json").read_text())["doubts"]
+    doubts = json.loads((workdir / "log.json").read_text())["warnings"]
     (line,) = [doubt for doubt in doubts if "C compiler" in doubt]
     assert line.startswith("not tried by a fit of two-link: C compiler: none of cc")
     text = read_builtin_robot("two-link")

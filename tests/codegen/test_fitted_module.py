@@ -79,7 +79,7 @@ def test_the_c_has_the_signature_of_its_values_and_the_gains_of_drives():
     nudged = dataclasses.replace(last, value=last.value * (1 + 2e-16) + 1e-16)
     assert nudged.value != last.value
     other = dataclasses.replace(some, parameters=(*some.parameters[:-1], nudged))
-    doubted = dataclasses.replace(some, usable=False, verdict="not usable: no")
+    doubted = dataclasses.replace(some, valid=False, verdict="not usable: no")
     made = [with_values("two-link", each) for each in (some, other, doubted, some)]
     signatures = [each.spec.fitted.signature for each in made]
     assert len(set(signatures)) == 3 and signatures[0] == signatures[3]

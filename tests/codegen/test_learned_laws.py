@@ -145,7 +145,7 @@ def test_robots_with_loops_have_laws_of_their_motors(name, monkeypatch):
     laws = {"11": ("sign(v)*law(q, abs(v))", drawn(rng, 2)), "12": ("law(v)", drawn(rng, 1))}
     model = derive_model(parse_robot_text(text_with(name, laws), name))
     c = loaded(emit(model, derive_base_parameters(model)))
-    home = np.array(c.spec.closure.home)[list(c.spec.closure.given)]
+    home = np.array(c.spec.closure.home)[list(c.spec.closure.actuated)]
     q = home + np.cumsum(rng.uniform(-2e-3, 2e-3, (40, len(home))), axis=0)
     qd, qdd = rng.normal(size=(2, *q.shape))
     phi = c.base_regressor(q, qd, qdd)

@@ -41,7 +41,7 @@ def test_relations_in_numbers_keep_the_digits_of_a_double(name: str) -> None:
     np.testing.assert_allclose(beta, stated, rtol=1e-14, atol=1e-14)
     home = np.zeros(n)
     if spec.closure is not None:
-        home = np.array([spec.closure.home[k] for k in spec.closure.given])
+        home = np.array([spec.closure.home[k] for k in spec.closure.actuated])
     q = home + rng.uniform(-0.05, 0.05, (40, n)) * (1.0 if spec.closure else 40.0)
     qd, qdd = rng.uniform(-1.0, 1.0, (2, 40, n))
 

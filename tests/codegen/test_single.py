@@ -79,7 +79,7 @@ def test_it_computes_what_double_precision_computes(name, bound, samples):
     q, qd, qdd = states(len(spec.joints), samples)
     if spec.closure is not None:
         size = [1.0 if joint.unit == "rad" else 0.3 for joint in spec.joints]
-        q = 0.1 * q * size + [spec.closure.home[k] for k in spec.closure.given]
+        q = 0.1 * q * size + [spec.closure.home[k] for k in spec.closure.actuated]
     rng = np.random.default_rng(2)
     signals = rng.uniform(0, 1, (samples, len(spec.signals)))
     q, qd, qdd, signals = (a.astype(np.float32).astype(float) for a in (q, qd, qdd, signals))
@@ -107,7 +107,7 @@ def test_loops_that_close_in_single_precision_close_on_the_branch_of_home(name):
     one, two = single(name), plain(name)
     closure = two.spec.closure
     assert closure is not None
-    home = np.array([closure.home[k] for k in closure.given])
+    home = np.array([closure.home[k] for k in closure.actuated])
     size = np.array([1.0 if joint.unit == "rad" else 0.3 for joint in two.spec.joints])
     shift = np.random.default_rng(3).uniform(-2, 2, (400, len(home))) * size
     q = (home + shift).astype(np.float32).astype(float)

@@ -94,7 +94,7 @@ def test_joints_that_cannot_be_judged_are_named() -> None:
     measured[:, 2] = 0.0
     found = compare(dataclasses.replace(p, used=used, measured=measured))
     assert [item.joint.name for item in found.joints] == ["2"]
-    assert dict(found.unjudged)["1"] == "no sample counts (all masked)"
+    assert dict(found.excluded_joints)["1"] == "no sample counts (all masked)"
     assert write_headline(compare(dataclasses.replace(p, used=used))).endswith("(joint 2).")
     assert "Joint 1 is not judged: no sample counts (all masked)." in write_verdict(found)
     nothing = compare(dataclasses.replace(p, measured=np.zeros_like(measured)))
@@ -188,8 +188,8 @@ def test_a_better_model_is_found_on_every_joint() -> None:
             assert item.errors[k] == pytest.approx(np.linalg.norm(e) / size)
     plain = found.as_dicts()
     assert [entry["model"] for entry in plain] == ["0.json", "1.json", "2.json"]
-    assert plain[1]["best_on"] == ["1", "2", "3"]
-    assert plain[1]["joints"]["2"]["best"] and not plain[0]["joints"]["2"]["best"]
+    assert plain[1]["best_joints"] == ["1", "2", "3"]
+    assert plain[1]["joints"]["2"]["is_best"] and not plain[0]["joints"]["2"]["is_best"]
 
 
 def test_one_joint_alone_is_named() -> None:

@@ -77,8 +77,8 @@ def check_shares(found: Comparison, method: str, known: np.ndarray, joint: int =
     p = found.prediction
     total = float(np.var(p.measured[p.used[:, joint], joint]))
     assert item.shares is not None and item.shares.method == method
-    assert item.shares.systematic * total == pytest.approx(float(np.mean(known**2)), rel=0.15)
-    assert item.shares.floor * total == pytest.approx(filtered_noise(), rel=0.15)
+    assert item.shares.systematic_share * total == pytest.approx(float(np.mean(known**2)), rel=0.15)
+    assert item.shares.noise_share * total == pytest.approx(filtered_noise(), rel=0.15)
 
 
 def added(q: np.ndarray, joint: int = 1) -> np.ndarray:
@@ -184,5 +184,5 @@ def test_what_follows_another_joint_is_no_noise(
     known = float(np.var(added[:, 0]))
     share = known / (known + filtered_noise())
     assert first.structure is not None
-    assert first.structure.follows.share == pytest.approx(share, abs=0.25)
+    assert first.structure.best_predictor.share == pytest.approx(share, abs=0.25)
     assert "the residual looks like noise" in write_joint_verdict(second)

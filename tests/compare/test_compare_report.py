@@ -174,7 +174,7 @@ def test_stacked_bars_fill_the_whole(comparison: Comparison, page: str) -> None:
         np.testing.assert_allclose(last.base + last.values, 100.0)
     item = comparison.joints[1]
     assert item.shares is not None
-    assert torque.series[1].values[1] == pytest.approx(100 * item.shares.systematic)
+    assert torque.series[1].values[1] == pytest.approx(100 * item.shares.systematic_share)
     stacked = [bars for bars in series_of(figures(page)[0]) if bars["base"] is not None]
     assert len(stacked) == 5
 

@@ -69,9 +69,11 @@ def check(p: Prediction, method: str, known: float, tolerance: float) -> None:
         total = float(np.var(p.measured[:, item.index]))
         found = item.shares
         assert found is not None and found.method == method
-        assert found.explained + found.systematic + found.floor == pytest.approx(1.0)
-        assert found.systematic == pytest.approx(repeated / total, abs=tolerance / total)
-        assert found.floor == pytest.approx(NOISE**2 / total, abs=tolerance / total)
+        assert found.explained_share + found.systematic_share + found.noise_share == pytest.approx(
+            1.0
+        )
+        assert found.systematic_share == pytest.approx(repeated / total, abs=tolerance / total)
+        assert found.noise_share == pytest.approx(NOISE**2 / total, abs=tolerance / total)
 
 
 @pytest.mark.parametrize(
@@ -125,8 +127,8 @@ def test_without_repetition_smooth_functions_tell(defect: Defect, tolerance: flo
     assert found is not None and found.method == "smooth" and found.sigma is None
     total = float(np.var(p.measured[:, 1]))
     known = float(np.mean(defect(*(x[:, 1] for x in (p.q, p.qd, p.qdd, p.predicted)), p.time) ** 2))
-    assert found.systematic == pytest.approx(known / total, rel=tolerance)
-    assert found.floor == pytest.approx(0.25 / total, rel=0.15)
+    assert found.systematic_share == pytest.approx(known / total, rel=tolerance)
+    assert found.noise_share == pytest.approx(0.25 / total, rel=0.15)
 
 
 def test_what_returns_is_told_and_noise_is_not() -> None:
@@ -152,7 +154,7 @@ def test_standard_error_of_the_repeatable_share() -> None:
         .shares
         for seed in range(12)
     ]
-    scatter = np.std([each.systematic for each in found if each is not None])
+    scatter = np.std([each.systematic_share for each in found if each is not None])
     told = np.mean([each.sigma for each in found if each is not None and each.sigma is not None])
     assert 0.5 < told / scatter < 2.5  # the known part's own products count as scatter too
 
@@ -216,7 +218,7 @@ def test_scale_by_hand() -> None:
     p = np.random.default_rng(1).normal(size=200)
     found = estimate_scale(-2.0 * p, p)
     assert found is not None and found.has_opposite_sign and found.has_wrong_factor
-    assert (found.factor, found.mended) == pytest.approx((-2.0, 1.0))
+    assert (found.factor, found.variance_reduction) == pytest.approx((-2.0, 1.0))
     assert estimate_scale(p, np.zeros(200)) is None and estimate_scale(p[:5], p[:5]) is None
 
 

@@ -61,9 +61,9 @@ def test_a_missing_effect_is_named_and_measured(coordinate: str, defect: Defect)
 def test_white_noise_has_no_structure() -> None:
     """The share is 0 within the chance of 3000 samples."""
     for item in compare(prediction(rows=3000)).joints:
-        assert item.structure is not None and item.structure.together < 0.01
+        assert item.structure is not None and item.structure.own_motion < 0.01
         assert max(share for _, share in item.structure.shares) < 0.01
-        assert max(share for _, share in item.structure.across) < 0.01
+        assert max(share for _, share in item.structure.other_joints) < 0.01
         assert is_noise_like(item)
         assert "the residual looks like noise" in write_joint_verdict(item)
         assert "ripple of" not in write_joint_verdict(item)
@@ -81,7 +81,7 @@ def test_coloured_noise_is_neither_structure_nor_white(memory: float) -> None:
     for seed in range(2):
         item = second_joint(lambda q, qd, qdd, tau, t, s=seed: 3.0 * coloured(memory, s))
         assert item.structure is not None and item.spectrum is not None
-        assert item.structure.together < 0.05
+        assert item.structure.own_motion < 0.05
         assert not is_noise_like(item)
         assert "yet it is not noise" in write_joint_verdict(item)
         # exp(-t / memory) falls to 0.2 at 1.6 memories

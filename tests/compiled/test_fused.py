@@ -53,7 +53,7 @@ def test_triangles_are_those_of_the_rows(name, samples):
 
 
 def home(model) -> np.ndarray:
-    return np.array([model.spec.closure.home[i] for i in model.spec.closure.given])
+    return np.array([model.spec.closure.home[i] for i in model.spec.closure.actuated])
 
 
 def test_samples_whose_loops_do_not_close_are_left_out():

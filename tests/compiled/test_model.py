@@ -120,7 +120,7 @@ def test_signals_that_no_effect_reads_are_refused(name):
     """They would change nothing; whoever gives them thinks of another robot."""
     model = plain(name)
     spec = model.spec
-    home = [spec.closure.home[i] for i in spec.closure.given] if spec.closure else [0.0] * 3
+    home = [spec.closure.home[i] for i in spec.closure.actuated] if spec.closure else [0.0] * 3
     q, qd, qdd = np.tile(home, (4, 1)), *np.zeros((2, 4, len(home)))
     beta, s = np.ones(len(spec.base)), np.zeros((4, 1))
     motion = dict.fromkeys(["base_regressor", "regressor", "observation"], (q, qd, qdd))

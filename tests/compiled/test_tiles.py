@@ -32,7 +32,7 @@ def tiled(monkeypatch):
 
 
 def home_of(model: CompiledModel) -> np.ndarray:
-    return np.array([model.spec.closure.home[place] for place in model.spec.closure.given])
+    return np.array([model.spec.closure.home[place] for place in model.spec.closure.actuated])
 
 
 def assert_close(got: np.ndarray, expected: np.ndarray) -> None:

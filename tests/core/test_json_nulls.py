@@ -66,7 +66,7 @@ def test_json_of_a_command_holds_no_number_that_is_none(line, folder, monkeypatc
     if line == LINES[0]:
         assert set(raw["joints"]) == {"1"} and raw["by_log"][0]["joints"]["2"] is None
     if line == LINES[1]:
-        assert raw["clock"]["gaps"] == 0 and raw["clock"]["at"] is None
+        assert raw["clock"]["gaps"] == 0 and raw["clock"]["largest_gap_start"] is None
     if line == LINES[2]:
         joint = raw["joints"]["2"]
         assert joint["error_before"] is joint["error_after"] is None and joint["rms_before"] > 0.0

@@ -116,7 +116,7 @@ def test_the_controller_carries_what_friction_remembers(tmp_path):
 def test_torques_are_held_where_the_loops_do_not_close_and_the_program_gives_up(tmp_path):
     emitted = values_of("five-bar")
     built(emitted, tmp_path, *PROGRAMS)
-    home = np.array([emitted.spec.closure.home[k] for k in emitted.spec.closure.given])
+    home = np.array([emitted.spec.closure.home[k] for k in emitted.spec.closure.actuated])
     good = np.concatenate([home, np.zeros(2), home, np.zeros(4)])
     bad = np.concatenate([home + 100.0, good[2:]])
     bad[0] = np.nan

@@ -45,7 +45,7 @@ def same_ways(emitted: EmittedModule, other: EmittedModule) -> bool:
     It may take other steps, or take samples one by one that could go together: how many evaluations
     that takes is all that differs.
     """
-    home = np.array([emitted.spec.closure.home[k] for k in emitted.spec.closure.given])
+    home = np.array([emitted.spec.closure.home[k] for k in emitted.spec.closure.actuated])
     found = []
     for files in (emitted, other):
         robot, rng, own = loaded(files), np.random.default_rng(11), []

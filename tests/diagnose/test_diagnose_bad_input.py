@@ -80,7 +80,7 @@ def test_channels_that_contradict_the_model_are_named_and_no_physics_is(
     assert "\ndata: held out: the positions look like degrees; expected rad and m; convert" in out
     content = json.loads(to.read_text())
     assert content["verdict"] == "cannot tell" and content["effects"] == []
-    assert content["contradicted"] is True
+    assert content["has_contradictions"] is True
 
 
 def late(joint: int, samples: int, columns: Table) -> Table:
@@ -157,7 +157,7 @@ def test_what_a_motion_cannot_show_is_a_blind_spot(arm: Path, run: Run, tmp_path
     assert "data: joint 2 moves at one speed only (1 rad/s): friction laws cannot be" in out
     assert "any effect of joint 1" in out.splitlines()[-2]  # the last names the next command
     content: dict[str, Any] = json.loads((tmp_path / "d.json").read_text())
-    blind = {(spot["effect"], spot["joint"]) for spot in content["blind_spots"]}
+    blind = {(spot["effect"], spot["joint"]) for spot in content["undetectable"]}
     laws = {"stribeck", "asymmetric_viscous", "nonlinear_viscous"}
     for joint, unseen in ("1", laws | {"spring", "position_friction", "drift"}), ("2", laws):
         assert {(effect, joint) for effect in unseen} <= blind

@@ -70,7 +70,7 @@ def first_of(found: Diagnosis) -> EquationProposal:
     """The best proposal for joint 2."""
     every = {own.joint: own for own in found.discoveries or ()}
     assert not every["1"].proposals
-    assert "nothing to find" in every["1"].why
+    assert "nothing to find" in every["1"].reason
     return every["2"].proposals[0]
 
 
@@ -115,8 +115,8 @@ def test_the_hidden_equation_is_the_first_with_its_value(found: Diagnosis) -> No
     )
     assert abs(value - CHURN) < 0.1 * CHURN and 0.0 < sigma < 0.1 * CHURN
     assert first.finding.error_after < 0.3 * first.finding.error_before
-    assert first.definition["unit"] == "s/rad" and first.explained > 0.9
-    assert "viscous" in first.differs and "times the load" in first.differs
+    assert first.definition["unit"] == "s/rad" and first.explained_share > 0.9
+    assert "viscous" in first.difference and "times the load" in first.difference
 
 
 def test_every_symbol_has_its_price(found: Diagnosis) -> None:
@@ -151,7 +151,7 @@ def test_what_is_found_is_told_to_machines_and_on_the_page(found: Diagnosis) -> 
     assert 1 <= len(offered) <= 3
     assert offered[0]["text"].startswith("[own_effects.found_2a]")
     if len(offered) > 1:
-        assert "--between found_2a@2,found_2b@2" in offered[0]["apart"]
+        assert "--between found_2a@2,found_2b@2" in offered[0]["discriminating_command"]
     page = build_diagnosis_page(found)
     assert any(section.title.startswith("Xbaa2") for section in page.sections)
 
@@ -183,7 +183,7 @@ def test_the_least_held_out_error_stands_first(monkeypatch: pytest.MonkeyPatch) 
 def test_nothing_is_proposed_where_nothing_is_hidden(case: Case) -> None:
     every = discover_equations(case.found(nothing).search, (), None)
     assert [own.joint for own in every] == ["1", "2"]
-    assert all(not own.proposals and "nothing to find" in own.why for own in every)
+    assert all(not own.proposals and "nothing to find" in own.reason for own in every)
 
 
 def test_add_wants_discover(run: Run, tmp_path: Path) -> None:

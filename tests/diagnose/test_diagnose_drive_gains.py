@@ -43,12 +43,12 @@ def test_wrong_gains_are_named_with_their_values_and_added(case: Case, factors) 
         name = f"eps{finding.joint}"
         value, sigma = finding.parameters[name], finding.sigmas[name]
         assert abs(value - (1.0 - wrong[name])) < 3.0 * sigma + 1e-3 * wrong[name]
-        assert sigma < 0.01 * wrong[name] and finding.objection == ""
-    assert not any("torque is" in line for line in diagnosis.data)
+        assert sigma < 0.01 * wrong[name] and finding.caveat == ""
+    assert not any("torque is" in line for line in diagnosis.data_warnings)
     model, train, holdout = case.hidden(logged(*factors))
     logs = LogSplit([train], [holdout])
     better, left = add_findings(model, case.compiled, diagnosis.effects, logs)
-    assert left == () and all(step.falls for step in better.history[1:])
+    assert left == () and all(step.is_improvement for step in better.history[1:])
     for f in diagnosis.effects:
         (name,) = f.parameters
         added = eps_of(better, [name])[name]

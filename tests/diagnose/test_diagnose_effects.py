@@ -67,11 +67,13 @@ def test_one_effect_alone_has_the_errors_of_its_joint_and_what_other_looks_say(c
     assert first.error_before == pytest.approx(joint.error_before)
     assert first.error_after == pytest.approx(joint.error_after)
     held_out, band = first.cross_checks
-    assert held_out.what == "in the held-out logs" and band.what.startswith("up to")
-    assert band.gain > 0.5 and first.doubt == "" and first.status != "possible"
-    assert all(look.agrees and look.leads == ("spring", "3") for look in first.cross_checks)
+    assert held_out.label == "in the held-out logs" and band.label.startswith("up to")
+    assert band.variance_reduction > 0.5 and first.warning == "" and first.status != "possible"
+    assert all(
+        look.agrees and look.leading_effect == ("spring", "3") for look in first.cross_checks
+    )
     told = found.to_json()
-    leads = told["effects"][0]["looks"][0]["leads"]
+    leads = told["effects"][0]["splits"][0]["leading_effect"]
     assert leads == {"effect": "spring", "joint": "3"} and told["joints"].keys() == {"1", "2", "3"}
     assert found.machine_changed == ()
 
@@ -99,7 +101,7 @@ def test_effects_that_fail_on_held_out_motion_are_not_named(case: Case) -> None:
 def test_nothing_is_named_where_nothing_is_hidden(case: Case) -> None:
     diagnosis = case.found(nothing)
     assert diagnosis.verdict == "nothing significant" and diagnosis.effects == ()
-    assert ("payload", None) in diagnosis.blind_spots and diagnosis.machine_changed == ()
+    assert ("payload", None) in diagnosis.undetectable and diagnosis.machine_changed == ()
 
 
 def smoothed(log: Log) -> np.ndarray:
@@ -134,7 +136,7 @@ def test_a_load_since_the_fit_is_named_with_its_mass(case: Case) -> None:
     log = chain_of(text).log("loaded", duration=15.0, rate=RATE, seed=8, torque_noise=0.01)
     diagnosis = diagnose(case.fitted(case.train), case.compiled, [log])
     first = diagnosis.effects[0]
-    assert diagnosis.changed and (first.effect, first.joint) == ("payload", None)
+    assert diagnosis.has_changed and (first.effect, first.joint) == ("payload", None)
     assert first.parameters["mass"] == pytest.approx(1.2, rel=0.1)
 
 
@@ -147,7 +149,7 @@ def strange(log: Log) -> np.ndarray:
 def test_a_cause_outside_the_catalogue_is_not_stated_as_a_fact(case: Case) -> None:
     diagnosis = case.found(strange)
     assert diagnosis.verdict in ("closest description", "unexplained")
-    assert diagnosis.joints["2"].systematic > 0.5 * diagnosis.joints["2"].noise
+    assert diagnosis.joints["2"].systematic_share > 0.5 * diagnosis.joints["2"].noise_share
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")

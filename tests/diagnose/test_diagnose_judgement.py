@@ -133,14 +133,14 @@ DROWNED = CrossCheck("up to 9 Hz", None, True, -0.01, 0.015)
         ("spring", 0.185, {"closed": 0.96}, ""),
         ("spring", 0.185, {"refines": True}, ""),
         ("spring", 0.65, {}, "the error is 65 % still"),
-        ("spring", 0.1, {"objection": "too heavy"}, "too heavy"),
+        ("spring", 0.1, {"caveat": "too heavy"}, "too heavy"),
         ("spring", 0.1, {"ties": (candidate("spring", "3"),)}, "one of joint 3"),
         ("spring", 0.1, {"ties": (candidate("counterbalance"), candidate("base_tilt", None))}, ""),
         ("spring", 0.1, {"ties": (candidate("cable_hysteresis"),)}, "kind: cable_hysteresis"),
         ("spring", 0.1, {"checks": (LED,)}, "stribeck explains its joint better (up to 9 Hz)"),
         ("spring", 0.1, {"checks": (FAINT,)}, "explains nothing up to 9 Hz"),
         ("spring", 0.1, {"checks": (DROWNED,)}, ""),
-        ("drive_gain", 0.1, {"objection": "1000 times", "checks": (LED, FAINT)}, ""),
+        ("drive_gain", 0.1, {"caveat": "1000 times", "checks": (LED, FAINT)}, ""),
         ("joint_ripple", 0.1, {"sigmas": {"m": 0.01}}, "no number of teeth"),
     ],
 )
@@ -149,7 +149,7 @@ def test_one_rule_says_in_words_why_an_effect_is_perhaps_and_no_more(
 ) -> None:
     said = explain_weak_evidence(candidate(name), (0.2 if after < 0.2 else 0.9, after), **others)  # type: ignore[arg-type]
     assert why in said and bool(said) is bool(why)
-    first = finding(name, "2", doubt=said)
+    first = finding(name, "2", warning=said)
     assert first.status == ("possible" if why else "confirmed")
     assert decide_verdict((first,), joint_left(0.1), None) == (  # type: ignore[arg-type]
         "closest description" if why else "missing"

@@ -24,7 +24,7 @@ def test_a_band_in_which_the_model_trembles_is_lowered_or_told(case: Case) -> No
     for processing, told in ((given, 1), (Processing(), 0)):
         model = case.chain.fit([log], processing)
         found = diagnose(model, case.compiled, [log], most=0)
-        lines = [line for line in found.data if "high-frequency" in line]
+        lines = [line for line in found.data_warnings if "high-frequency" in line]
         assert len(lines) == told
         assert all("position noise" in x and "--cutoff below" in x for x in lines)
         assert (found.band == 25.0) if told else (found.band < 15.0)
@@ -62,6 +62,6 @@ def test_torques_without_any_friction_are_doubted(case: Case) -> None:
     fitted, train, _ = case.hidden(smooth)
     smoothly = diagnose(fitted, case.compiled, [train], most=0)
     for found, told in ((smoothly, 1), (case.found(nothing), 0)):
-        assert sum("no joint rubs" in line for line in found.data) == told
+        assert sum("no joint rubs" in line for line in found.data_warnings) == told
         ids = {effect.id for effect in found.search.catalogue}
         assert ("load_friction" not in ids) is bool(told) and "time_delay" in ids

@@ -92,7 +92,7 @@ def test_knocks_without_rule_are_a_description_at_most(monkeypatch):
     found = searched(monkeypatch, QUIET, QUIET, knocks, columns)
     (play,) = detect_events(found, None, ERRORS, falls(0.04), [])
     assert (play.effect, play.joint) == ("backlash", "2")
-    assert "do not follow the sign of the load" in play.objection
+    assert "do not follow the sign of the load" in play.caveat
     assert "90 % of the residual energy" in play.evidence
     rings = column("elasticity", "3", 0.9)
     assert said(found, [rings]) == [("elasticity", "3")], "what rings has impacts too"
@@ -113,7 +113,7 @@ def test_play_whose_column_does_not_lower_the_error_is_no_fact(monkeypatch):
     for columns, after in (({}, 0.04), ({1: (0.4, 0.2, 9.0)}, 0.05)):
         found = searched(monkeypatch, loud, loud, columns=columns)
         (play,) = detect_events(found, None, ERRORS, falls(after), [])
-        assert not play.is_confirmed and "no column of play" in play.objection
+        assert not play.is_confirmed and "no column of play" in play.caveat
         assert play.error_before == 0.05 and np.isnan([play.error_after, play.gain]).all()
     (play,) = detect_events(found, None, ERRORS, falls(0.04), [])
     assert play.status == "confirmed" and (play.error_before, play.error_after) == (0.05, 0.04)

@@ -38,13 +38,13 @@ def test_with_link_data_a_counterbalance_is_named(seed):
     assert (found.effects[0].effect, found.effects[0].joint) == ("counterbalance", "2")
     assert found.effects[0].error_after < 0.2 * found.effects[0].error_before
     assert not any(LINE in line for line in found.sentences)
-    assert any("link 2: the data contradict" in line for line in model.fit.verdict.doubts)
+    assert any("link 2: the data contradict" in line for line in model.fit.verdict.warnings)
     compiled = load_module(model.spec, model.sources)
     read = LogSplit(*(read_logs(compiled, some) for some in logs))
     named, _ = add_findings(model, compiled, found.effects, read)
     for better in (add(model, "counterbalance", *logs, "2"), named):
         assert [step.effect for step in better.history] == ["", "counterbalance"]
-        assert better.history[-1].falls and not better.fit.contradicted
+        assert better.history[-1].is_improvement and not better.fit.prior_conflicts
         z = []
         for base, p in zip(better.spec.base, better.fit.parameters, strict=True):
             if all(term.parameter in machine for term in base.terms):
@@ -63,5 +63,5 @@ def test_a_true_machine_lacks_nothing_and_free_inertias_look_like_gravity(
 ):
     _, model, *logs = fitted(values, seed, (), uncertainty)
     found = diagnose(model, *logs)
-    assert found.verdict == "nothing significant" and not model.fit.contradicted
+    assert found.verdict == "nothing significant" and not model.fit.prior_conflicts
     assert any(line.startswith(LINE) for line in found.sentences) is (not values)

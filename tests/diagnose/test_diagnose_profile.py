@@ -30,7 +30,7 @@ def simulated(hide, seed):
     }  # fmt: skip
     truth = simulate(arm.derivation.robot, SimulationSettings(**settings)).truth
     log = arm.log(str(seed), **settings)
-    return log, arm.fit([log]), truth.hidden[0].values
+    return log, arm.fit([log]), truth.hidden_effects[0].values
 
 
 def found(hide, seed):
@@ -116,8 +116,8 @@ def test_what_is_added_is_stored_and_told_with_it(tmp_path):
     np.testing.assert_allclose(np.sqrt(np.diag(better.covariance)), sigmas)
     assert np.linalg.eigvalsh(better.covariance / np.outer(sigmas, sigmas))[0] > -1e-9
     step = better.history[-1]
-    assert list(step.shape_intervals["d"]) == [1.0, 2.0]
-    low, high = step.shape_intervals["vs"]
+    assert list(step.nonlinear_intervals["d"]) == [1.0, 2.0]
+    low, high = step.nonlinear_intervals["vs"]
     assert low < truth["speed"] < high
     told = describe_last_addition(better)
     assert told[0].startswith("Fst2 = ") and (" to " in told[0] or "+-" in told[0])

@@ -135,7 +135,7 @@ def test_half_a_sample_is_a_convention_and_more_is_a_delay(
     every = round(0.012 / float(np.median(np.diff(case.train.time))))
     train, holdout = (slower(log, every, late) for log in (case.train, case.holdout))
     diagnosis = diagnose(case.fitted(train), case.compiled, [train], [holdout])
-    moved = [line for line in diagnosis.data if "a convention of the logger" in line]
+    moved = [line for line in diagnosis.data_warnings if "a convention of the logger" in line]
     assert (bool(diagnosis.effects), len(moved)) == ((True, 0) if named else (False, 1))
     for first in diagnosis.effects[:1]:
         assert first.effect == "time_delay"
@@ -156,7 +156,7 @@ def test_a_held_out_log_without_temperature_is_told_and_used(case: Case) -> None
     whole = diagnose(model, case.compiled, [train], [holdout])
     assert (whole.effects[0].effect, whole.verdict) == ("temperature_friction", "missing")
     diagnosis = diagnose(model, case.compiled, [train], [blind])
-    assert any("has no temperature of joint 2" in line for line in diagnosis.data)
+    assert any("has no temperature of joint 2" in line for line in diagnosis.data_warnings)
     assert diagnosis.joints["2"].error_after > whole.joints["2"].error_after
 
 

@@ -65,7 +65,7 @@ def test_an_effect_has_its_page(name: str) -> None:
         assert f"| `{column.prefix}` | `{column.equation.text}` |".replace("\\", "") in page
     for words in (effect.signature, effect.source):
         assert words.split(";")[0].split("_")[0].split("|")[0].split("*")[0] in page
-    assert effect.look_alikes[1:].split("(")[0] in page
+    assert effect.confounders[1:].split("(")[0] in page
     if name not in HIDDEN:
         assert found.picture is None and "Nothing simulates" in page
         return

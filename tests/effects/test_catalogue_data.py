@@ -13,9 +13,9 @@ from modeler.robot.robot import INERTIAL
 
 @pytest.mark.parametrize("effect", CATALOGUE, ids=lambda effect: effect.id)
 def test_an_effect_of_the_catalogue_is_whole(effect: Effect) -> None:
-    assert effect.shows in get_args(SignatureAxis)
+    assert effect.signature_axis in get_args(SignatureAxis)
     assert effect.source != "the robot file"
-    assert all(find_effect(other) for other in effect.same_as)
+    assert all(find_effect(other) for other in effect.equivalent_effects)
     assert effect.sign in (-1, 0, 1)
     for form in effect.forms:
         assert {shape.scale for shape in form.nonlinear_parameters} <= SCALES.keys() - {"own"}

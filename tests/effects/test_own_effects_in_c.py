@@ -171,7 +171,7 @@ def test_robots_with_loops_take_effects_of_motion_only() -> None:
         with pytest.raises(EmitError, match=r"five-bar has loops, and effects that read more than"):
             generate(derive(with_column(equation)))
     compiled = loaded(generate(derive(with_column("sin(3*v)*q + a*sin(q)"))))
-    home = np.array(compiled.spec.closure.home)[list(compiled.spec.closure.given)]
+    home = np.array(compiled.spec.closure.home)[list(compiled.spec.closure.actuated)]
     rng = np.random.default_rng(8)
     q, v, a = home + rng.uniform(-0.1, 0.1, (9, 2)), *rng.normal(size=(2, 9, 2))
     column = [p.column_of for p in compiled.spec.base].index("Kv11")

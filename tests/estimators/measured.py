@@ -39,7 +39,11 @@ def lines(name: str, found: Sequence[MethodResult]) -> str:
             said = f"refused: {own.refusal}"
             rows.append([name, own.method, "", "", "", f"{own.seconds:.1f}", said])
             continue
-        far = "" if own.farthest is None else f"{own.farthest[0]} {own.farthest[1]:.1f} sigma"
+        far = (
+            ""
+            if own.largest_shift is None
+            else f"{own.largest_shift[0]} {own.largest_shift[1]:.1f} sigma"
+        )
         remarks = "; ".join(own.fit.estimator_notes)
         held_out = "" if own.held_out_error is None else f"{100 * own.held_out_error:.2f}"
         rows.append([

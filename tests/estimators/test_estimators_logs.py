@@ -304,7 +304,7 @@ def test_the_command_compares_on_the_same_data(folder, capsys):
     assert [own["method"] for own in said["methods"]] == ["weighted", "iv"]
     for own in said["methods"]:
         assert own["fit"]["relative_error"] < 0.02 and own["held_out_error"] < 0.02
-        assert own["seconds"] > 0.0 and own["remarks"] and own["avoid"]
+        assert own["seconds"] > 0.0 and own["notes"] and own["limitations"]
         assert f"\n{own['method']}: " in out
     text = page.read_text()
     assert "Values and standard deviations" in text and "weighted" in text

@@ -112,7 +112,7 @@ def test_pairs_that_share_a_joint_or_always_touch_are_left_out_and_told(arm):
     ]
     told = [{"base", "3"}, {"1", "3"}, {"1", "floor"}, {"2", "floor"}, {"3", "floor"}]
     assert sorted(map(sorted, pairs)) == sorted(map(sorted, told))
-    out = {frozenset(pair[:2]): pair[2] for pair in bounds.clearance.left_out}
+    out = {frozenset(pair[:2]): pair[2] for pair in bounds.clearance.excluded_pairs}
     assert out[frozenset({"base", "2"})] == "in 100 % of postures"
 
 
@@ -197,7 +197,9 @@ def test_the_command_checks_a_motion_and_draws_the_nearest_two(arm, tmp_path, ca
     assert main([*words, "--clearance", "0", "--json", str(tmp_path / "c.json")]) == 0
     told = json.loads((tmp_path / "c.json").read_text())["clearance"]
     near = check_motion(arm[0], place, clearance=0.0)
-    assert told["margin"] == 0 and told["nearest"]["distance"] == pytest.approx(near.distance)
+    assert told["margin"] == 0 and told["closest_approach"]["distance"] == pytest.approx(
+        near.distance
+    )
 
 
 @pytest.mark.rotating("long tests of excite")

@@ -43,10 +43,10 @@ def test_what_is_written_is_the_motion_and_what_it_uses(folder):
     raw = json.loads((folder / "motion.json").read_text())
     table = pacsv.read_csv(folder / "motion.csv")
     assert table.column_names == ["time", *(f"{p}{j}" for p in ("q", "qd", "qdd") for j in "123")]
-    assert raw["condition_scaled"] < raw["random"]["condition_scaled_best"]
+    assert raw["condition_scaled"] < raw["random_motions"]["condition_scaled_best"]
     for name, joint in raw["joints"].items():
         q = table[f"q{name}"].to_numpy()
-        assert q.max() == pytest.approx(joint["upper"]["used"], abs=1e-3)
+        assert q.max() == pytest.approx(joint["upper"]["value"], abs=1e-3)
         assert joint["lower"]["slack"] > 0 and joint["speed"]["slack"] > 0
         waves = raw["series"]["coefficients"][name]
         phase = np.outer(table["time"].to_numpy(), np.arange(1, len(waves["cos"]) + 1))
@@ -75,7 +75,7 @@ def test_a_model_is_excited_in_its_essential_parameters(capsys, folder, tmp_path
     assert (status, err) == (0, "")
     raw = json.loads((tmp_path / "j").read_text())
     assert raw["parameters"] == essential
-    assert 0 < raw["joints"]["2"]["torque"]["used"] < 60
+    assert 0 < raw["joints"]["2"]["torque"]["value"] < 60
     assert raw["joints"]["1"]["torque"]["limit"] is None
     table = pq.read_table(tmp_path / "m.parquet")
     q = table["q1"].to_numpy()
@@ -90,10 +90,10 @@ def test_two_effects_are_told_apart_better_than_by_chance(capsys, folder, tmp_pa
         "--out", tmp_path / "b.csv", "--json", tmp_path / "b.json",
     )  # fmt: skip
     assert (status, err) == (0, "") and "load_friction@2" in out
-    found = json.loads((tmp_path / "b.json").read_text())["between"]
+    found = json.loads((tmp_path / "b.json").read_text())["discrimination"]
     gains = [effect["gain"] for effect in found.values()]
     assert np.sqrt(np.prod(gains)) > 1.15 and min(gains) > 0.9
-    assert all(0 < effect["left"] <= 1 for effect in found.values())
+    assert all(0 < effect["unexplained_share"] <= 1 for effect in found.values())
 
 
 def test_the_best_of_given_motions_is_chosen(capsys, folder, tmp_path):
@@ -104,8 +104,8 @@ def test_the_best_of_given_motions_is_chosen(capsys, folder, tmp_path):
     words = (*words, "--from", logs[0], "--from", logs[1])
     assert run(capsys, *words)[0] == 0
     raw = json.loads((tmp_path / "c").read_text())
-    assert raw["chosen"] == [str(logs[0])]
-    assert raw["condition_scaled"] == min(raw["alone"])
+    assert raw["chosen_motions"] == [str(logs[0])]
+    assert raw["condition_scaled"] == min(raw["single_conditions"])
 
 
 OF_A_ROBOT = {

@@ -84,7 +84,10 @@ def test_the_command_writes_a_family_in_the_same_columns(family, tmp_path, capsy
     assert main([str(word) for word in words]) == 0, capsys.readouterr().err
     motion, raw = read_motion(place, ["1", "2"]), json.loads(told.read_text())
     assert raw["family"] == raw["series"]["family"] == family
-    assert raw["random"]["motions"] == 7 and "best of 7 random" in (tmp_path / "m.svg").read_text()
+    assert (
+        raw["random_motions"]["count"] == 7
+        and "best of 7 random" in (tmp_path / "m.svg").read_text()
+    )
     curve, t = build_curve(motion), np.linspace(0.0, 4.0, 1001)
     assert np.allclose(curve(t), curve(t + 4.0), atol=1e-6)
     for j, name in enumerate("12"):
@@ -138,7 +141,7 @@ def test_expected_sigmas_are_those_of_a_fit_of_old_and_new_logs(recordings):
     """Its third joint hardly moved: that is what the motion makes up for."""
     robot, compiled, record, old = recordings
     motion = next_to(robot, [old], rate=RATE, duration=8.0, starts=1, harmonics=4)
-    gain, columns = motion.gain, motion.sample_motion(RATE)
+    gain, columns = motion.information_gain, motion.sample_motion(RATE)
     parts = (np.column_stack([columns[p + j] for j in "123"]) for p in ("q", "qd", "qdd"))
     new = record("new", columns["time"], *parts)
     real = identify(observe(compiled, [old, new]), "weighted", compiled)

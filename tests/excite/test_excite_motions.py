@@ -97,7 +97,7 @@ def assert_not_faster(found, constraints, q, bounds):
 def test_loops_close_all_along_away_from_singular_postures(name):
     (found, compiled), limits = robot(name), ()
     if name == "five-bar":
-        home = np.array(compiled.spec.closure.home)[list(compiled.spec.closure.given)]
+        home = np.array(compiled.spec.closure.home)[list(compiled.spec.closure.actuated)]
         limits = tuple(
             f"{joint.name}={at - 2.5},{at + 2.5},3,12"
             for joint, at in zip(compiled.spec.joints, home, strict=True)
@@ -196,5 +196,5 @@ def test_every_loop_asks_for_the_time(monkeypatch, steps):
     monkeypatch.setattr("modeler.excitation.search.time.monotonic", lambda: clock[0])
     before = clock[0]
     motion = subject.search_motion(bounds, MotionRequest(6.0, 4, seed=1, time_limit=before + steps))
-    assert motion.ended_early and clock[0] < before + steps + 700
+    assert motion.has_ended_early and clock[0] < before + steps + 700
     assert (motion.random_count == 1) == (steps == 1)

@@ -124,10 +124,10 @@ def test_the_choice_is_the_best_of_all_subsets(monkeypatch):
         return compute_condition(np.vstack([rows[k] for k in places]))
 
     every = sorted(value(places) for places in itertools.combinations(range(9), 3))
-    assert choice.exhaustive and choice.condition == pytest.approx(every[0])
+    assert choice.is_exhaustive and choice.condition == pytest.approx(every[0])
     monkeypatch.setattr(choosing, "THRESHOLDS", replace(choosing.THRESHOLDS, max_subsets=1))
     quick = choose_motions(rows, 3)
-    assert not quick.exhaustive and quick.condition <= every[3]
+    assert not quick.is_exhaustive and quick.condition <= every[3]
     with pytest.raises(DataError, match="got 10 of 9"):
         choose_motions(rows, 10)
     with pytest.raises(DataError, match="excite all"):

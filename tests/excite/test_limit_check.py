@@ -40,7 +40,7 @@ def smooth(rng: np.random.Generator, rate: float) -> tuple[np.ndarray, np.ndarra
 
 def kinds(time: np.ndarray, q: np.ndarray) -> set[tuple[str, str]]:
     found = find_exceeded_limits(BOUNDS, ("rad", "rad"), time, q, None)
-    return {(each.joint, each.what) for each in found}
+    return {(each.joint, each.quantity) for each in found}
 
 
 @pytest.mark.parametrize("rate", [100.0, 250.0, 1000.0])
@@ -60,9 +60,9 @@ def test_a_leap_is_found_whatever_its_place() -> None:
         at, way = int(rng.integers(10, len(time) - 10)), rng.choice([-1.0, 1.0])
         q[at:, 1] += way * rng.uniform(0.05, 1.37)
         found = find_exceeded_limits(BOUNDS, ("rad", "rad"), time, q, None)
-        first = next(each for each in found if each.what in ("speed", "acceleration"))
+        first = next(each for each in found if each.quantity in ("speed", "acceleration"))
         assert first.joint == "2" and first.time == pytest.approx(time[at], abs=0.05)
-        if first.what == "speed":
+        if first.quantity == "speed":
             assert abs(first.value) > 2.0 and "in 5 ms), limit 2" in first.format_line()
 
 
@@ -90,7 +90,7 @@ def test_the_command_refuses_what_breaks_limits(tmp_path: Path, capsys) -> None:
     assert main([*words, "--rate", "200", "--out", motion]) == 0
     check = ["excite", str(robot), "--check"]
     assert main([*check, motion, "--json", str(tmp_path / "m.json")]) == 0
-    assert json.loads((tmp_path / "m.json").read_text())["exceeded"] == []
+    assert json.loads((tmp_path / "m.json").read_text())["exceeded_limits"] == []
     capsys.readouterr()
 
     table = np.genfromtxt(motion, delimiter=",", names=True)

@@ -55,7 +55,7 @@ def far(name: str, tmp_path, rng, reach: float = 1.5) -> dict[str, float]:
         for _ in range(3):
             state = state_of(spec, rng)
             if spec.closure is not None:
-                home = np.array(spec.closure.home)[list(spec.closure.given)]
+                home = np.array(spec.closure.home)[list(spec.closure.actuated)]
                 state["q"] = home + reach * state["q"]
             sizes = {argument.name: argument.size for argument in emitted.inputs}
             state["widths"] = rng.uniform(0.1, 1.0, sizes.get("widths", 0))
@@ -147,7 +147,7 @@ def test_a_model_has_its_values_in_place_of_beta(tmp_path, monkeypatch) -> None:
     robot = load("two-link")
     model = identify(robot, simulate(robot, duration=4.0, rate=200.0, seed=3))
     found = export(model, tmp_path / "two.casadi")
-    assert [value.now for value in found.values] == pytest.approx(list(model.beta))
+    assert [value.after for value in found.values] == pytest.approx(list(model.beta))
     fitted, free = (functions_of(export(x, to="casadi").data, tmp_path) for x in (model, robot))
     state = state_of(model.spec, np.random.default_rng()) | {"beta": model.beta}
     for role, function in fitted.items():

@@ -76,7 +76,7 @@ def unit(request, tmp_path_factory):
     rng = np.random.default_rng()
     state = np.concatenate([rng.uniform(-1, 1, plant.n), rng.uniform(-0.5, 0.5, plant.n)])
     if (closure := plant.spec.closure) is not None:
-        home = np.array(closure.home)[list(closure.given)]
+        home = np.array(closure.home)[list(closure.actuated)]
         state[: plant.n] = home + 0.1 * state[: plant.n]
     times = np.arange(round(LENGTH / STEP) + 1) * STEP
     still = plant.compiled.gravity(state[None, : plant.n], plant.beta)[0]

@@ -200,4 +200,6 @@ def test_numbers_of_the_file_that_the_robot_came_from_are_told(tmp_path) -> None
     values = {
         (v.part, v.quantity): v for v in export(reread(tmp_path, "a.urdf", URDF), to="urdf").values
     }
-    assert values["shoulder", "damping"].was == 1.2 and values["shoulder", "friction"].was == 0.7
+    assert (
+        values["shoulder", "damping"].before == 1.2 and values["shoulder", "friction"].before == 0.7
+    )

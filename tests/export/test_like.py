@@ -61,7 +61,7 @@ def refused(word: str, robot: Robot, like: Path, to: str | None = None) -> None:
 def test_other_values_read_back_as_they_are_and_none_leave_the_file_as_it_is(tmp_path, name):
     place = written(tmp_path, name, ARMS[name])
     same = export(read_robot(place), like=place)
-    assert same.data == ARMS[name] and not any(value.changed for value in same.values)
+    assert same.data == ARMS[name] and not any(value.is_changed for value in same.values)
     robot = other_values(place)
     data = export(robot, like=place).data
     again = reread(tmp_path, f"again_{name}", data)
@@ -108,14 +108,14 @@ def test_urdf_outside_the_numbers_is_the_same_text(tmp_path) -> None:
 def test_lumped_bodies_keep_their_numbers_and_one_without_mass_leaves_the_change(urdf) -> None:
     """To what hangs on it."""
     result = export(other_values(urdf, "2"), like=urdf)
-    parts = {value.part for value in result.values if value.changed and value.quantity == "mass"}
+    parts = {value.part for value in result.values if value.is_changed and value.quantity == "mass"}
     assert parts == {"fore"} and any("tool as before" in note for note in result.notes)
     tool = result.data[result.data.index(b'<link name="tool">') :][:300]
     assert tool == URDF[URDF.index(b'<link name="tool">') :][:300]
     robot = read_robot(urdf)
     heavier = export(valued(robot, M3=robot.parameters["M3"] + 0.1), like=urdf)
-    mass = next(v for v in heavier.values if v.quantity == "mass" and v.changed)
-    assert (mass.part, mass.was) == ("finger", 0.2) and mass.now == pytest.approx(0.3)
+    mass = next(v for v in heavier.values if v.quantity == "mass" and v.is_changed)
+    assert (mass.part, mass.before) == ("finger", 0.2) and mass.after == pytest.approx(0.3)
 
 
 def test_mjcf_writes_what_defaults_and_geoms_said(mjcf) -> None:
@@ -221,11 +221,11 @@ def test_rounding_is_no_change(tmp_path) -> None:
         place = written(tmp_path, "arm.urdf", text)
         robot = read_robot(place)
         result = export(robot, like=place)
-        assert result.data == text and not any(value.changed for value in result.values)
+        assert result.data == text and not any(value.is_changed for value in result.values)
         heavy = valued(robot, M2=robot.parameters["M2"] * (1 + 1e-7))
-        assert any(value.changed for value in export(heavy, like=place).values)
-        negative = [v for v in result.values if v.now == 0.0 and np.signbit(v.now)]
-        assert not negative and not any(0.0 < abs(v.now) < 1e-12 for v in result.values)
+        assert any(value.is_changed for value in export(heavy, like=place).values)
+        negative = [v for v in result.values if v.after == 0.0 and np.signbit(v.after)]
+        assert not negative and not any(0.0 < abs(v.after) < 1e-12 for v in result.values)
 
 
 def test_only_changed_numbers_are_listed(urdf, tmp_path, capsys) -> None:

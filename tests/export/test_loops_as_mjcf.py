@@ -38,7 +38,7 @@ def apart(robot: Robot, seed: int, count: int = 6) -> float:
     names = [f"joint_{j.name}" for j in robot.free_joints]
     at = [model.joint(name).dofadr[0] for name in names]
     assert len(at) + len(robot.relations) == model.nv
-    given = list(spec.closure.given)
+    given = list(spec.closure.actuated)
     home = np.array(spec.closure.home)[given]
     chi = np.array([p.nominal or 0.0 for p in spec.standard])
     beta, found, right = compiled.base_parameters(chi), [], []

@@ -72,7 +72,7 @@ def test_values_have_the_sigmas_of_the_fit(fitted) -> None:
     place, _, model = fitted
     values = {(v.part, v.quantity): v for v in export(model, like=place).values}
     friction = values["shoulder", "friction"]
-    assert friction.was == 0.7 and friction.now == pytest.approx(model["Fs1"].value)
+    assert friction.before == 0.7 and friction.after == pytest.approx(model["Fs1"].value)
     assert friction.sigma == pytest.approx(model["Fs1"].sigma)
     physics = build_export_parameters(model, Original())
     assert np.allclose(
@@ -103,7 +103,7 @@ def test_the_comment_and_the_tables_tell_it(fitted, tmp_path) -> None:
     assert "numbers changed" in found.summary()
     table = found.to_frame()
     assert list(table.columns[:2]) == ["part", "quantity"]
-    assert found.to_dict()["values"][0]["changed"] in (True, False)
+    assert found.to_dict()["values"][0]["is_changed"] in (True, False)
 
 
 @pytest.mark.rotating("long tests of export")
@@ -120,10 +120,10 @@ def test_what_a_format_cannot_hold_is_told_with_its_share(tmp_path) -> None:
     share = np.linalg.norm(np.where(rows.used, rows.predict(part), 0.0)[:, 2])
     share /= np.linalg.norm(np.where(rows.used, rows.predict(model.beta), 0.0)[:, 2])
     assert exact["rotor_inertia", "3"].share == pytest.approx(share)
-    assert exact["rotor_inertia", "3"].of == "the torque of joint 3"
+    assert exact["rotor_inertia", "3"].share_of == "the torque of joint 3"
     about = export(dataclasses.replace(model, in_memory_logs=()), to="urdf").lost_effects
     (offset,) = (x for x in about if (x.effect, x.joint) == ("offset", "1"))
-    assert offset.of == "all torques" and 0.0 < offset.share < 1.0
+    assert offset.share_of == "all torques" and 0.0 < offset.share < 1.0
     fresh = export(model, to="mjcf")
     assert {x.effect for x in fresh.lost_effects} == {"offset"}
     assert "offset of joint" in fresh.summary()
@@ -174,7 +174,7 @@ def test_a_fit_that_could_not_be_built_becomes_one_that_could(fitted) -> None:
     found = export(broken, like=place)
     assert found.shift_in_sigmas == pytest.approx(3.0, rel=0.2) and "moved by 3" in found.summary()
     elbow = [v for v in found.values if (v.part, v.quantity) == ("elbow", "friction")]
-    assert elbow[0].now >= 0.0
+    assert elbow[0].after >= 0.0
 
 
 @pytest.mark.rotating("long tests of export")
@@ -194,7 +194,7 @@ def test_what_hangs_on_a_link_changes_only_where_it_must(tmp_path) -> None:
         found = export(model, like=place)
         again = read_robot(written(tmp_path, "again.urdf", found.data))
         assert again.parameters["M3"] == pytest.approx(0.3 * share, rel=0.05)
-        masses[share] = {v.part: v.now for v in found.values if v.quantity == "mass"}
+        masses[share] = {v.part: v.after for v in found.values if v.quantity == "mass"}
         assert any("changed with it: finger" in note for note in found.notes) == (share < 1.0)
     assert masses[1.2]["slider"] == pytest.approx(0.16, rel=0.1) and "finger" not in masses[1.2]
     assert 0.0 < masses[0.5]["slider"] < 0.1 and 0.0 < masses[0.5]["finger"] < 0.2

@@ -15,7 +15,7 @@ def test_choices_words_and_functions_are_the_same_list():
     for id, estimator in METHODS.items():
         assert estimator.about.id == id
         about = estimator.about
-        assert all((about.law, about.source, about.avoid, about.motion))
+        assert all((about.law, about.source, about.limitations, about.motion))
 
 
 @pytest.mark.parametrize(

@@ -127,7 +127,7 @@ def test_links_that_reach_beyond_their_frames_are_a_machine():
         log = Log("pan.csv", made.joints, made.time, made.q, factor * made.tau)
         observation = observe(machine, [log])
         fit = judge_fit(machine, observation, identify(observation, "weighted", machine))
-        assert fit.verdict.usable == usable, fit.verdict.doubts
+        assert fit.verdict.valid == usable, fit.verdict.warnings
         assert usable or "mN m" in fit.verdict.line
 
 
@@ -183,7 +183,7 @@ def test_every_command_says_the_same(arm, capsys, mistake):
     ):  # fmt: skip
         assert main(words.split()) == 0
         assert SAID[mistake] in capsys.readouterr().out, words
-        assert any(SAID[mistake] in line for line in json.loads(told.read_text())["doubts"])
+        assert any(SAID[mistake] in line for line in json.loads(told.read_text())["warnings"])
 
 
 def test_a_log_beside_a_model_of_another_is_judged_by_its_values():

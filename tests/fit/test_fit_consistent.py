@@ -42,7 +42,7 @@ def test_standard_and_base_are_one_machine(fitted):
     np.testing.assert_allclose(
         compiled(name).base_parameters(chi), beta, rtol=0, atol=1e-9 * np.abs(beta).max()
     )
-    assert told["method"] == "consistent" and told["usable"]
+    assert told["method"] == "consistent" and told["valid"]
     for joint in {p.joint for p in spec.standard if p.effect == "rigid_body"}:
         body = compute_pseudo_inertia({p: told["standard"][f"{p}{joint}"] for p in INERTIAL})
         size = np.sqrt(np.diag(body))

@@ -53,11 +53,11 @@ def clock(log, factor):
 
 def test_a_good_fit_leaves_no_doubt(log):
     verdict = verdict_of(log)
-    assert (verdict.usable, verdict.valid_for, verdict.doubts) == (True, "parameters", ())
+    assert (verdict.valid, verdict.valid_for, verdict.warnings) == (True, "parameters", ())
     assert verdict.line.startswith("Valid for torque prediction: cross-validated error at most ")
     assert verdict.line.endswith("Parameters are physically consistent.")
     assert verdict.format_warning() == []
-    assert verdict.possible
+    assert verdict.physically_consistent
     assert {one.state for one in verdict.by_joint.values()} == {"good"}
     assert all(", cross-validated error " in one.why[0] for one in verdict.by_joint.values())
 
@@ -65,7 +65,7 @@ def test_a_good_fit_leaves_no_doubt(log):
 def test_inertias_tell_the_unit_of_time_where_the_steps_do_not(log):
     # 0.18 s: five rows a second, if it were true; gravity is a clock that nobody can set
     verdict = verdict_of(clock(log, 90.0))
-    assert not verdict.usable
+    assert not verdict.valid
     assert verdict.line.startswith("Not valid: the clock seems to be wrong: ")
     told = float(verdict.line.split("motion were ")[1].split(" times")[0])
     assert 50.0 < told < 200.0
@@ -75,12 +75,12 @@ def test_a_torque_with_the_wrong_sign(log):
     tau = log.tau.copy()
     tau[:, 1] *= -1.0
     verdict = verdict_of(dataclasses.replace(log, tau=tau))
-    assert not verdict.usable
+    assert not verdict.valid
     assert verdict.line.startswith("Not valid: not physically consistent: distance ")
     assert "2" in verdict.line.split("mainly from")[1]
     assert "% on joint 2, not " in verdict.line
-    assert any("is negative, which physics does not allow" in line for line in verdict.doubts)
-    assert verdict.possible is False
+    assert any("is negative, which physics does not allow" in line for line in verdict.warnings)
+    assert verdict.physically_consistent is False
     own = verdict.by_joint["2"]
     assert own.state == "undetermined" and verdict.line[11:] in own.why
 
@@ -112,7 +112,7 @@ def test_a_model_of_a_spoilt_log_is_not_valid_for_its_parameters(log, defect):
     verdict = verdict_of(change(log))
     assert verdict.valid_for == valid_for or (not valid_for and verdict.valid_for != "parameters")
     assert {one.state for one in verdict.by_joint.values()} != {"good"}
-    said = verdict.line if valid_for else "\n".join(verdict.doubts)
+    said = verdict.line if valid_for else "\n".join(verdict.warnings)
     assert all(word in said for word in words), said
 
 
@@ -128,7 +128,7 @@ def test_a_joint_that_stands_still_leaves_the_prediction(log):
             line.startswith(parameter.name) and "set aside" in line for line in fit.format_lines()
         )
     assert verdict.valid_for != "parameters"
-    assert any("record a motion that moves all joints" in line for line in verdict.doubts)
+    assert any("record a motion that moves all joints" in line for line in verdict.warnings)
     assert verdict.by_joint["1"].state == "undetermined"
     assert "no row was fitted" in verdict.by_joint["1"].why
 
@@ -140,10 +140,10 @@ def test_values_that_stand_in_for_what_the_model_lacks(log):
     assert len(model.spec.base) == len(compiled("demo-arm").spec.base) - 3
     observation = observe(model, [log])
     verdict = judge_fit(model, observation, identify(observation)).verdict
-    assert verdict.usable and verdict.valid_for == "prediction"
+    assert verdict.valid and verdict.valid_for == "prediction"
     stands_in = "an effect is missing, and values absorb it; run `modeler diagnose`"
-    assert any(stands_in in line for line in verdict.doubts)
-    about = next(line for line in verdict.doubts if stands_in in line).split(":")[0]
+    assert any(stands_in in line for line in verdict.warnings)
+    about = next(line for line in verdict.warnings if stands_in in line).split(":")[0]
     named = about.removeprefix("joint ").split(", ")
     assert all(verdict.by_joint[name].state == "doubtful" for name in named)
 
@@ -163,7 +163,7 @@ def test_a_joint_whose_halves_differ_is_doubtful_and_no_other():
 def test_what_other_stages_tell_joins_in(log):
     swapped = DataWarning("joint 1 and 2: exchanged; exchange tau1 and tau2", True)
     verdict = verdict_of(log, told=[swapped])
-    assert verdict.line == f"Not valid: {swapped.line}" and verdict.doubts == (swapped.line,)
+    assert verdict.line == f"Not valid: {swapped.line}" and verdict.warnings == (swapped.line,)
     states = {one.state for one in verdict.by_joint.values()}
     assert states == {"undetermined"}  # it is about all of them
     own = dataclasses.replace(swapped, joints=("1", "2"))
@@ -171,7 +171,7 @@ def test_what_other_stages_tell_joins_in(log):
     assert [by_joint[name].state for name in "123"] == ["undetermined", "undetermined", "good"]
     vague = DataWarning("joint 3: positions may be late", False)
     verdict = verdict_of(log, told=[vague])
-    assert verdict.usable and vague.line in verdict.line
+    assert verdict.valid and vague.line in verdict.line
     assert {one.state for one in verdict.by_joint.values()} == {"good"}
 
 
@@ -184,14 +184,14 @@ def test_the_model_file_keeps_it_and_old_ones_have_none(log, tmp_path):
     assert again.fit.verdict == model.fit.verdict
     assert again.warning == [f"the fit of this model is n{model.fit.verdict.line[1:]}"]
     raw = model.fit.to_json()
-    assert raw["usable"] is False and raw["doubts"] and raw["valid_for"] == "nothing"
-    for name in ("usable", "valid_for", "verdict", "doubts"):
+    assert raw["valid"] is False and raw["warnings"] and raw["valid_for"] == "nothing"
+    for name in ("valid", "valid_for", "verdict", "warnings"):
         del raw[name]
     old = read_fit(raw, model.fit.covariance)
     assert old.verdict is None
     assert dataclasses.replace(model, fit=old).warning == []
-    with pytest.raises(ManifestError, match=r"verdict.usable is .yes., expected true"):
-        read_fit({**model.fit.to_json(), "usable": "yes"}, model.fit.covariance)
+    with pytest.raises(ManifestError, match=r"verdict.valid is .yes., expected true"):
+        read_fit({**model.fit.to_json(), "valid": "yes"}, model.fit.covariance)
 
 
 @pytest.mark.rotating("long tests of fit")
@@ -205,7 +205,7 @@ def test_every_command_that_takes_the_model_says_so(log, tmp_path, capsys):
     lines = printed(capsys, f"fit demo-arm {log} --out {model} --json {out}")
     assert sum(line.startswith("Not valid: ") for line in lines) == 1
     answer = json.loads((tmp_path / "out.json").read_text())
-    assert answer["usable"] is False and answer["verdict"] in "\n".join(lines)
+    assert answer["valid"] is False and answer["verdict"] in "\n".join(lines)
     for command in (
         f"compare {model} {log}", f"diagnose {model} {log}",
         f"add {model} stribeck --joint 1 {log} --out {tmp_path}/m2.json",
@@ -340,5 +340,5 @@ def test_a_good_log_of_a_built_in_robot_is_usable(name):
     settings = SimulationSettings(duration=20.0, rate=200.0, seed=72)
     log = log_of(settings, module(name).model.robot)
     verdict = observed_fit(log, compiled(name))[1].verdict
-    assert verdict.usable
+    assert verdict.valid
     assert verdict.valid_for == ("prediction" if name in VAGUE else "parameters"), verdict.line

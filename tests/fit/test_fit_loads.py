@@ -91,7 +91,7 @@ def test_the_load_takes_the_force_of_a_point_mass(name, link, g, reach):
     compiled, model = bare(name, 3)
     rng, mass, c = np.random.default_rng(7), 1.7, np.array([0.03, -0.05, 0.08])
     closure = compiled.spec.closure
-    home = 0.0 if closure is None else np.array(closure.home)[list(closure.given)]
+    home = 0.0 if closure is None else np.array(closure.home)[list(closure.actuated)]
     n, joints = 6, len(compiled.spec.joints)
     q, qd, qdd = (home * k + reach * rng.uniform(-1, 1, (n, joints)) for k in (1, 0, 0))
     row, h = [joint.name for joint in module(name).model.robot.moving_joints].index(link), 1e-4
@@ -171,7 +171,7 @@ def test_a_mass_that_is_not_told_is_not_tested_and_a_sum_is_called_a_sum(logs):
     for mass in (UNTOLD, 1.5 * UNTOLD):
         assert fit_loaded(logs, f"--payload-mass {mass} --json {logs}/f.json") == 0
         told = json.loads((logs / "f.json").read_text())
-        assert not any("weighs" in doubt for doubt in told["doubts"])
+        assert not any("weighs" in doubt for doubt in told["warnings"])
         assert f"its mass of {mass:g} kg is taken as given" in "\n".join(told["sentences"])
     assert fit_loaded(logs, f"--json {logs}/f.json") == 0
     told = json.loads((logs / "f.json").read_text())

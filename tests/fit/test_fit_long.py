@@ -181,16 +181,16 @@ def test_what_the_windows_do_not_show_makes_a_fit_not_usable(small_windows, any_
     """A torque wrong by half, in a thirtieth of the log, between two windows."""
     log = noisy_log(seconds=60.0)
     clean, _ = verdict_of(log)
-    assert clean.usable and not [line for line in clean.doubts if "windows" in line]
+    assert clean.valid and not [line for line in clean.warnings if "windows" in line]
     tau = log.tau.copy()
     tau[2400:2800, 0] *= 1.5
     wrong, fit = verdict_of(log, tau=tau)
-    assert fit.joints[0].relative_error > 0.03 and not wrong.usable
+    assert fit.joints[0].relative_error > 0.03 and not wrong.valid
     assert "joint 1: fit error " in wrong.line and " on all rows, " in wrong.line
     # no verdict promises better than the error on all rows
     tau[2400:2800, 0] *= 1.003 / 1.5
     verdict, fit = verdict_of(log, tau=tau)
-    assert verdict.usable
+    assert verdict.valid
     promised = float(verdict.line.split(" % on every joint")[0].rsplit(" ", 1)[1])
     most = max(joint.relative_error for joint in fit.joints)
     assert promised >= float(f"{100.0 * most:.3g}")
@@ -386,7 +386,7 @@ def passed_log(model: CompiledModel, memory: float, size: float = 1.0, seed: int
     q, qd, qdd = (x.sum(2) for x in (np.sin(angle) * a, np.cos(angle) * a * w,
                                      -np.sin(angle) * a * w * w))  # fmt: skip
     if model.spec.closure is not None:
-        q = q + [model.spec.closure.home[i] for i in model.spec.closure.given]
+        q = q + [model.spec.closure.home[i] for i in model.spec.closure.actuated]
     tau = model.inverse_dynamics(q, qd, qdd, rng.uniform(0.5, 2.0, len(model.spec.base)))
     pole = np.exp(-1.0 / (PASSED_RATE * memory)) if memory else 0.0
     noise = np.sqrt(1 - pole**2) * lfilter([1.0], [1.0, -pole], rng.normal(size=q.shape), axis=0)

@@ -81,7 +81,7 @@ def test_held_out_errors_are_below_the_published_ones(robot):
     assert {joint: error for joint, error in found.items() if error >= limits[joint]} == {}
     verdict, (valid_for, words) = model.fit.verdict, PUBLISHED[robot].verdict
     assert verdict.valid_for == valid_for and words in verdict.line, verdict.line
-    assert verdict.usable is (valid_for != "nothing")
+    assert verdict.valid is (valid_for != "nothing")
 
 
 @slow_rotating("fits of measured logs")

@@ -89,11 +89,11 @@ def test_what_the_noise_would_have_bent_is_said():
     assert not any(told in line for line in fine.sentences)
     assert any(told in line and "sigma (" in line for line in coarse.sentences)
     assert coarse.processing.parallel_cutoff < fine.processing.parallel_cutoff
-    assert coarse.bands.limited_by == "1" and fine.bands.limited_by is None
+    assert coarse.bands.limiting_joint == "1" and fine.bands.limiting_joint is None
     assert fine.verdict.valid_for == "parameters"
 
 
 def test_a_motion_that_is_mostly_noise_gives_no_values():
     _, fit = fitted(np.random.default_rng(5), slow_noise(0.3))
     assert fit.verdict.valid_for != "parameters"
-    assert any("values may be biased towards zero" in line for line in fit.verdict.doubts)
+    assert any("values may be biased towards zero" in line for line in fit.verdict.warnings)

@@ -79,7 +79,9 @@ def test_its_sigmas_cover_the_truth_and_are_smaller(robot):
     z, shrunk = [], []
     for seed in range(12):
         _, fit = seen_and_fit(robot, seed)
-        if set(fit.essential.dropped) <= {name for name, value in truth.items() if value == 0.0}:
+        if set(fit.essential.dropped_parameters) <= {
+            name for name, value in truth.items() if value == 0.0
+        }:
             full = {p.name: p.sigma for p in fit.parameters}
             z += [(p.value - truth[p.name]) / p.sigma for p in fit.essential.parameters]
             shrunk += [p.sigma / full[p.name] for p in fit.essential.parameters]
@@ -96,7 +98,7 @@ def test_it_is_told_and_saved(fitted):
     rows = {line.split()[0]: line.split() for line in lines[:14]}
     assert rows["parameter"] == ["parameter", "value", "sigma", "%sigma", "reduced", "unit"]
     values = {p.name: f"{p.value:.6g}" for p in fit.essential.parameters}
-    values |= dict.fromkeys(fit.essential.dropped, "-")
+    values |= dict.fromkeys(fit.essential.dropped_parameters, "-")
     assert {name: rows[name][4] for name in values} == values
     raw = json.loads(json.dumps(fit.to_json(), allow_nan=False))
     assert read_fit(raw, fit.covariance).essential == fit.essential
@@ -140,11 +142,11 @@ def test_a_reduced_model_is_offered_only_where_it_describes_every_joint(robot):
 
 def test_a_reduced_model_that_predicts_worse_is_not_offered(fitted, monkeypatch):
     seen, fit = fitted
-    assert fit.essential.dropped and "cross-validated error" in " ".join(fit.sentences)
+    assert fit.essential.dropped_parameters and "cross-validated error" in " ".join(fit.sentences)
     module = sys.modules["modeler.estimation.identify"]
     monkeypatch.setattr(module, "compute_held_out_errors", lambda *_: ((0.01, 0.02), False))
     refused = identify(seen, "ordinary")
-    assert not refused.essential.dropped and refused.essential.limit is None
+    assert not refused.essential.dropped_parameters and refused.essential.f_limit is None
     assert all(p.essential for p in refused.parameters)
     assert not any(line.startswith("reduced model: ") for line in refused.format_lines())
     assert any(
@@ -168,7 +170,7 @@ def known_set(arm, seed):
         qd += w * (b * np.cos(w * time) - a * np.sin(w * time))
         qdd -= w**2 * (a * np.cos(w * time) + b * np.sin(w * time))
     size = 0.06 / np.abs(q).max(axis=0)
-    W = arm.observation(home[list(arm.spec.closure.given)] + size * q, size * qd, size * qdd)
+    W = arm.observation(home[list(arm.spec.closure.actuated)] + size * q, size * qd, size * qdd)
     beta = rng.uniform(0.3, 2.0, len(names)) * rng.choice([-1, 1], len(names))
     none = rng.choice(len(names), 10, replace=False)
     beta[none] = 0.0
@@ -188,9 +190,9 @@ def test_known_sets_are_found_among_columns_that_are_alike():
         essential = select_essential_parameters(
             data, solve_least_squares(data, "ordinary"), "ordinary"
         )
-        found += set(essential.dropped) == none
+        found += set(essential.dropped_parameters) == none
         kept = [data.names.index(name) for name in essential.names]
-        out = [data.names.index(name) for name in essential.dropped]
+        out = [data.names.index(name) for name in essential.dropped_parameters]
         better += any(some_exchange_is_better(data, kept, out))
     assert found >= 12 and better == 0
 
@@ -217,10 +219,12 @@ def test_a_share_of_the_value_that_sigmas_stay_below_may_rule_instead(robot):
         small = identify(seen, "ordinary", below=below)
         at = [seen.names.index(p.name) for p in small.essential.parameters]
         assert max(least_squares_shares(seen, at)) < below
-        for name in small.essential.dropped:
+        for name in small.essential.dropped_parameters:
             assert least_squares_shares(seen, [*at, seen.names.index(name)])[-1] >= below
         assert [p.value for p in small.parameters] == [p.value for p in fit.parameters]
-    assert len(identify(seen, "ordinary", below=1.0).essential.dropped) > len(fit.essential.dropped)
+    assert len(identify(seen, "ordinary", below=1.0).essential.dropped_parameters) > len(
+        fit.essential.dropped_parameters
+    )
     with pytest.raises(DataError, match="got sigmas below 0 %; expected a number above 0"):
         identify(seen, below=0.0)
 

@@ -137,7 +137,7 @@ def test_the_inertias_have_the_rank_of_the_papers_functions(exact):
 
     The singular values of Phi in the paper's functions and in base parameters count alike.
     """
-    assert [e.possible_rank for e in exact.excitation] == [7, 3, 1]
+    assert [e.max_rank for e in exact.excitation] == [7, 3, 1]
     q = np.random.default_rng(4).uniform(-np.pi, np.pi, (8, 3))
     s2, c2, s3, c3 = np.sin(q[:, 1]), np.cos(q[:, 1]), np.sin(q[:, 2]), np.cos(q[:, 2])
     paper = np.column_stack([
@@ -203,7 +203,7 @@ def test_too_few_configurations_and_joints_that_never_move_alone_are_named():
     """That, and no unit or sign, is why joint 1 is not described in the second log."""
     short, second = (_observed(_ROBOT, _log(_ROBOT, 40.0, only=only)) for only in (None, [1]))
     few = identify_in_two_steps(compiled(_ROBOT), short, _directions(_ROBOT))
-    assert few.excitation[0].rank < few.excitation[0].possible_rank
+    assert few.excitation[0].rank < few.excitation[0].max_rank
     assert any("not persistently exciting; move it at" in s for s in few.result.sentences)
     steps = identify_in_two_steps(compiled(_ROBOT), second, _directions(_ROBOT))
     told = steps.collect_warnings()

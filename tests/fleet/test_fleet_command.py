@@ -111,7 +111,7 @@ def test_the_command_and_python_say_the_same(capsys, plant: Path, tmp_path: Path
     followed = {each["parameter"]: each for each in told["quantities"]}
     assert set(followed) == {"Fv1", "Fs1", "Fv2", "Fs2", "gain 1", "gain 2", "load"}
     own = followed["Fs2"]["machines"]["r2"]
-    assert own["at"] == [0.0, 1.0, 2.0, 3.0, 4.0] and len(own["values"]) == 5
+    assert own["times"] == [0.0, 1.0, 2.0, 3.0, 4.0] and len(own["values"]) == 5
 
     found = fleet(load("two-link"), {
         machine: {path.stem: path for path in sorted((plant / machine).glob("*.parquet"))}

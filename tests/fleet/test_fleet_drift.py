@@ -52,7 +52,7 @@ def test_what_is_planted_is_found_and_nothing_else(case: str) -> None:
     [one] = found.findings
     assert one.change_percent == pytest.approx(percent, rel=0.35)
     size = one.change if one.quantity.unit == "%" else one.change_percent / 100.0 * abs(one.before)
-    assert abs(size - one.change) < 1e-9 and abs(one.score) > 4.0 and one.chance < 0.025
+    assert abs(size - one.change) < 1e-9 and abs(one.score) > 4.0 and one.p_value < 0.025
     assert found.verdict == "drift" and found.to_json()["findings"][0]["machine"] == "r2"
 
 
@@ -170,7 +170,9 @@ def test_a_log_that_is_left_out_and_a_short_fleet_are_told() -> None:
     assert "r9: one period, so a drift of its own cannot be seen" in lines
     assert "3 machines: an outlier among fewer than 5 is not reported" in lines
     assert found.verdict == "nothing drifts" and found.logs == 7
-    assert found.to_json()["left_out"] == [{"log": "r1/day9.csv", "why": "r1/day9.csv: damaged"}]
+    assert found.to_json()["skipped_logs"] == [
+        {"log": "r1/day9.csv", "reason": "r1/day9.csv: damaged"}
+    ]
     alike = "filtered alike: positions below 20 Hz, torques and columns below 5 Hz"
     assert f"all logs are {alike}" in analyse_fleet(compiled().spec, given).notes
     few = analyse_fleet(compiled().spec, summaries(Scene(machines=1, periods=3), 2)).notes

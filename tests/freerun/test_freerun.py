@@ -107,7 +107,7 @@ def test_the_true_values_give_the_simulated_motion(arm_run) -> None:
     What is left is the torque between samples, which no log has, grown by the arm's own nature.
     """
     for joint in arm_run.joints:
-        assert joint.fit > 99.5 and joint.fit > joint.constant_speed + 20.0
+        assert joint.fit > 99.5 and joint.fit > joint.constant_speed_fit + 20.0
     assert arm_run.numerical < 2e-3
 
 
@@ -125,7 +125,7 @@ def test_a_wrong_value_is_seen(arm, arm_run, name: str, share: float) -> None:
     )
     ours, theirs = wrong.joints[0], arm_run.joints[0]
     assert 100.0 - ours.fit > 4.0 * (100.0 - theirs.fit)
-    assert wrong.stability.unstable == arm_run.stability.unstable
+    assert wrong.stability.is_unstable == arm_run.stability.is_unstable
 
 
 @pytest.fixture(scope="module")
@@ -232,7 +232,7 @@ def test_a_free_axis_is_neither_stable_nor_unstable_and_what_is_said_of_it(slide
     """A mass that only rubs: no eigenvalue but 0."""
     model, compiled, log = slide
     found = simulate_free_run(model, [log], compiled)
-    assert found.stability.rate == pytest.approx(0.0, abs=1e-6) and not found.stability.unstable
+    assert found.stability.rate == pytest.approx(0.0, abs=1e-6) and not found.stability.is_unstable
     assert "integrated twice" in found.stability.describe()
     text, raw = found.summary(), found.to_json()
     assert len(repr(found)) < 150 and "slide" in repr(found)
@@ -240,7 +240,7 @@ def test_a_free_axis_is_neither_stable_nor_unstable_and_what_is_said_of_it(slide
     assert set(raw["joints"]) == {"1"} and raw["joints"]["1"]["fit"] > 99.5
     row = next(line.split() for line in text.splitlines() if line.startswith("1 "))
     assert row[1:3] == [f"{raw['joints']['1']['fit']:.2f}", "%"]
-    assert raw["stability"]["unstable"] is False
+    assert raw["stability"]["is_unstable"] is False
     (picture,) = draw_free_run_pictures(found)
     measured, simulated = picture.panels[0][0].series
     assert picture.name == "joint_1_free_run"
@@ -312,7 +312,7 @@ def test_given_gains_are_used(slide) -> None:
     settings = FreeRunSettings(gains=(8.0, 0.5, 0.0, 0.0))
     log = cut_rows(log, slice(0, 250))
     found = simulate_free_run(model, [log], compiled, settings)
-    assert found.controlled is not None and found.controlled.given
+    assert found.controlled is not None and found.controlled.has_given_gains
     assert found.to_json()["controller"]["speed"] == pytest.approx(8.0)
     bare = dataclasses.replace(log, commanded=None)
     with pytest.raises(DataError, match=r"--controller: run1.parquet: no complete columns qc1"):
@@ -352,7 +352,7 @@ def test_an_error_that_grows_by_nature_is_not_blamed_on_the_model() -> None:
     """True values, an upright pendulum: the run is lost, and the reason is reported."""
     model, log = pendulum(True)
     found = simulate_free_run(model, [log], compile(model), FreeRunSettings(window=2.0))
-    assert found.joints[0].whole < 90.0 and found.stability.unstable
+    assert found.joints[0].whole < 90.0 and found.stability.is_unstable
     assert any(
-        "an error grows tenfold and more by nature; `--window 0.3`" in d for d in found.doubts
+        "an error grows tenfold and more by nature; `--window 0.3`" in d for d in found.warnings
     )

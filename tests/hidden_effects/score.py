@@ -1,6 +1,6 @@
 """Is a diagnosis right? From the truth of a case and what was said of it, both as plain data.
 
-What is "possible" missing is no name: it is no alarm, and nothing wrong. It counts as named first
+What is "possible" is no name: it is no alarm, and nothing wrong. It counts as named first
 only where it is listed first and nothing is named.
 """
 
@@ -194,7 +194,9 @@ def _told(
     words, joint = SENSORS[sensor["kind"]].words, sensor.get("joint")
     if not words:
         return None
-    lines = [line for line in said.get("data", ()) if not joint or f"joint {joint}" in line]
+    lines = [
+        line for line in said.get("data_warnings", ()) if not joint or f"joint {joint}" in line
+    ]
     by_name = any(is_it(effect, key) for effect in blamed for key in named)
     return by_name or any(word in line for word in words for line in lines)
 

@@ -29,7 +29,7 @@ def said(*findings, ties=(), data=(), verdict="missing"):
     effects = [{"effect": e, "joint": j, "status": "".join(status) or "likely"} | errors
                for e, j, *status in findings]  # fmt: skip
     verdict = verdict if findings else "nothing significant"
-    return {"effects": effects, "verdict": verdict, "seconds": 1.0, "data": list(data)}
+    return {"effects": effects, "verdict": verdict, "seconds": 1.0, "data_warnings": list(data)}
 
 
 SPRING, DRIFT, DELAY = ("spring", "2"), ("drift", "2"), ("time_delay", None)

@@ -17,8 +17,8 @@ def test_what_is_missing_is_added_and_lowers_the_error(sprung: Mended) -> None:
     assert (step.effect, step.joint, sprung.left_out) == ("spring", "3", ())
     (line,) = describe_additions(sprung.better, 1)
     assert "error falls: joint" in line
-    assert step.error < before.error and step.falls and step.changed
-    assert any(step.joints[joint][1] < step.joints[joint][0] for joint in step.changed)
+    assert step.error < before.error and step.is_improvement and step.changed_joints
+    assert any(step.joints[joint][1] < step.joints[joint][0] for joint in step.changed_joints)
 
 
 @pytest.mark.rotating("effects are added to simulated runs")
@@ -47,7 +47,7 @@ def test_what_cannot_be_added_is_left_out_with_its_reason(case: Case, sprung: Me
 def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(
     case: Case, sprung: Mended, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    first = dataclasses.replace(sprung.diagnosis.effects[0], doubt="it may be another")
+    first = dataclasses.replace(sprung.diagnosis.effects[0], warning="it may be another")
     same, (line,) = add_findings(sprung.model, case.compiled, [first], sprung.logs)
     assert same is sprung.model and line.endswith("(weak evidence: it may be another)")
     monkeypatch.setattr(module, "explain_weak_evidence", lambda *found: "the error falls by little")
@@ -56,7 +56,7 @@ def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(
         "the evidence that it is missing is weak: the error falls by little"
         in describe_additions(step)[0]
     )
-    assert step.history[-1].to_json()["doubt"] == "the error falls by little"
+    assert step.history[-1].to_json()["warning"] == "the error falls by little"
 
 
 @pytest.mark.rotating("effects are added to simulated runs")
@@ -89,6 +89,6 @@ def test_without_held_out_logs_parts_are_left_out_in_turn(case: Case, refitted: 
     effect, joint = ("spring", "3") if refitted else ("payload", None)
     better = add_effect(model, case.compiled, effect, joint, LogSplit([train]))
     step = better.history[-1]
-    assert step.falls is refitted and step.held_out == ()
+    assert step.is_improvement is refitted and step.held_out_logs == ()
     if refitted:  # parameters that see a row describe it a little too well
         assert step.error > step.training_error

@@ -33,9 +33,14 @@ def test_the_error_falls_and_physics_stays(case: Case, tmp_path: Path) -> None:
     save_model(tmp_path / "m.json", api.add(fitted, "learned", [train], [holdout], joint="2"))
     better = load_model(tmp_path / "m.json")
     first, last = better.history
-    assert last.error < 0.25 * first.error and last.falls and last.learned and not last.doubt
+    assert (
+        last.error < 0.25 * first.error
+        and last.is_improvement
+        and last.is_learned
+        and not last.warning
+    )
     assert (last.effect, last.joint) == ("learned_2", "2")
-    assert last.moved and max(last.moved.values()) < 2.0
+    assert last.shifts_in_sigmas and max(last.shifts_in_sigmas.values()) < 2.0
     physics, law = better.error_reduction_shares or (0.0, 0.0)
     assert physics == 0.0 and law == pytest.approx(first.error - last.error)
     (own,) = parse_robot_text(better.robot_text, "better").own_effects

@@ -117,7 +117,7 @@ def test_one_that_reads_another_joint_or_remembers_is_found_with_its_values(
     assert last.joint == joint and last.error < 0.2 * better.history[0].error
     assert parameter.sigma is not None and abs(parameter.value - value) < 3.0 * parameter.sigma
     for shape, true in shapes.items():
-        assert abs(last.shapes[shape] - true) < 3.0 * last.shape_sigmas[shape]
+        assert abs(last.nonlinear_parameters[shape] - true) < 3.0 * last.nonlinear_sigmas[shape]
     assert [s.kind for s in better.spec.signals] == signals
     if effect == "leaning":
         with pytest.raises(DataError, match="--joint 3: leaning reads q3 of it as of another jo"):

@@ -78,7 +78,7 @@ def test_of_several_topics_one_is_chosen(short, tmp_path, run):
     raw = json.loads((tmp_path / "log.json").read_text())
     assert status == 0
     assert [s["name"] for s in raw["streams"]] == ["/joint_states", "/other/joint_states"]
-    assert [s["clock"] for s in raw["streams"]] == [True, False]
+    assert [s["is_clock"] for s in raw["streams"]] == [True, False]
     assert "/joint_states  sensor_msgs/msg/JointState, 400 messages, the clock" in out
     assert '"q<j>" = "joint_states.position[{name}]"' in out
     assert 'names = {1 = "waist", 2 = "shoulder", 3 = "elbow"}' in out

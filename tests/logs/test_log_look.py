@@ -61,22 +61,27 @@ def test_what_is_in_a_log_and_the_suggestion_serves_as_a_mapping(log_output, tmp
     assert raw["log"] == "run.parquet" and raw["rows"] == len(table["time"])
     assert raw["clock"]["rate"] == pytest.approx(1000.0)
     assert raw["clock"]["duration"] == pytest.approx(2.499)
-    assert raw["clock"]["gaps"] == raw["clock"]["repeated"] == raw["clock"]["back"] == 0
+    assert (
+        raw["clock"]["gaps"]
+        == raw["clock"]["repeated_steps"]
+        == raw["clock"]["backward_steps"]
+        == 0
+    )
     first = next(c for c in raw["channels"] if c["name"] == "pos_1")
     assert first["low"] == pytest.approx(table["pos_1"].min())
-    assert (first["unit"], first["guessed"]) == ("deg", True)
+    assert (first["unit"], first["is_unit_guessed"]) == ("deg", True)
     assert "even, no gaps, no time twice" in out
-    assert raw["doubts"] == ["pos_* looks like deg, by its range; say so in [log] or with --map"]
-    assert raw["suggested"].splitlines()[1:] == [
+    assert raw["warnings"] == ["pos_* looks like deg, by its range; say so in [log] or with --map"]
+    assert raw["suggested_map"].splitlines()[1:] == [
         '"q<j>" = "pos_{j} [deg]"  # by its range',
         '"qd<j>" = "vel_{j}"',
         '"tau<j>" = "tau_{j}"',
     ]
-    (tmp_path / "map.toml").write_text(raw["suggested"])
+    (tmp_path / "map.toml").write_text(raw["suggested_map"])
     raw, _ = log_output(table, "--map", tmp_path / "map.toml", "--robot", "demo-arm")
     names = [channel["name"] for channel in raw["channels"]]
     assert "pos_2 (q2)" in names and "tau_3 (tau3)" in names
-    assert raw["suggested"] == ""
+    assert raw["suggested_map"] == ""
 
 
 def test_gaps_repeats_and_steps_back(inspected, table):
@@ -138,16 +143,16 @@ def test_resolution_limits_and_missing_values(inspected, table):
     assert by["pos_2"]["resolution"] == pytest.approx(encoder, rel=1e-6)
     ((end, share),) = by["tau_2"]["limits"]
     assert end == pytest.approx(top) and share == pytest.approx(0.1, abs=0.03)
-    assert by["tau_3"]["missing"] == 7 and by["tau_1"]["limits"] == by["tau_3"]["limits"] == []
+    assert by["tau_3"]["missing_rows"] == 7 and by["tau_1"]["limits"] == by["tau_3"]["limits"] == []
 
 
 def test_a_robot_tells_more(log_output, plain):
-    assert log_output(plain, "--robot", "demo-arm")[0]["doubts"] == []
+    assert log_output(plain, "--robot", "demo-arm")[0]["warnings"] == []
     plain["tau2"] = -plain["tau2"]
-    doubts = "\n".join(log_output(plain, "--robot", "demo-arm")[0]["doubts"])
+    doubts = "\n".join(log_output(plain, "--robot", "demo-arm")[0]["warnings"])
     assert "joint 2" in doubts and "sign" in doubts
     del plain["tau3"]
-    doubts = log_output(plain, "--robot", "demo-arm")[0]["doubts"]
+    doubts = log_output(plain, "--robot", "demo-arm")[0]["warnings"]
     assert any("as a log of demo-arm it cannot be fitted: " in line for line in doubts)
 
 
@@ -157,7 +162,7 @@ def test_a_guess_that_fits_worse_is_dropped(log_output, inspected, plain):
     table["q1"] = table["q1"] + 4.0 * np.pi  # joint 1 turns about the vertical: gravity is blind
     assert "q1 looks like deg" in "\n".join(inspected(table).warnings)
     raw, _ = log_output(table, "--robot", "demo-arm")
-    assert raw["doubts"] == [] and raw["suggested"] == ""
+    assert raw["warnings"] == [] and raw["suggested_map"] == ""
 
 
 def test_a_joint_that_turns_on_is_in_rad_if_its_speed_agrees(inspected, plain):
@@ -165,7 +170,7 @@ def test_a_joint_that_turns_on_is_in_rad_if_its_speed_agrees(inspected, plain):
     factor = 4.0 / np.ptp(plain["q1"])
     plain["q1"], plain["qd1"] = factor * plain["q1"] + 9.0, factor * plain["qd1"]
     found = inspected(plain)
-    assert found.warnings == () and found.suggested == ""
+    assert found.warnings == () and found.suggested_map == ""
 
 
 @pytest.mark.parametrize(("own", "unit"), [("q", "deg"), ("tau", "mN m")])
@@ -174,7 +179,7 @@ def test_only_the_joint_of_another_unit_is_named(inspected, plain, own, unit):
     table[f"{own}2"] = table[f"{own}2"] * (np.rad2deg(4.0) if own == "q" else 1e3)
     found = inspected(table)
     assert [line.split(" looks")[0] for line in found.warnings] == [f"{own}2"]
-    assert tomllib.loads(found.suggested)["log"] == {f"{own}2": f"{own}2 [{unit}]"}
+    assert tomllib.loads(found.suggested_map)["log"] == {f"{own}2": f"{own}2 [{unit}]"}
 
 
 def test_a_joint_at_rest_is_no_doubt(inspected, plain):
@@ -195,8 +200,8 @@ def test_speeds_of_some_joints_are_checked(inspected, plain):
 def test_what_is_not_recognised_is_a_doubt(inspected, plain):
     found = inspected({"time": plain["time"], "foo": plain["q1"], 'b"ar': plain["tau1"]})
     assert "no columns look like positions or torques" in found.warnings[0]
-    assert '"foo"' in found.suggested and '# "q<j>"' in found.suggested
-    build_map(tomllib.loads(found.suggested)["log"], "suggested")
+    assert '"foo"' in found.suggested_map and '# "q<j>"' in found.suggested_map
+    build_map(tomllib.loads(found.suggested_map)["log"], "suggested")
 
 
 @pytest.mark.rotating("long tests of logs")
@@ -242,5 +247,5 @@ def test_whatever_is_in_it_is_told(tmp_path):
             continue
         json.dumps(seen.to_json(), allow_nan=False)
         assert draw_log_pictures(seen) or len(names) == 1
-        if seen.suggested:
-            build_map(tomllib.loads(seen.suggested)["log"], "suggested")
+        if seen.suggested_map:
+            build_map(tomllib.loads(seen.suggested_map)["log"], "suggested")

@@ -52,7 +52,7 @@ def far_and_near(home: np.ndarray) -> np.ndarray:
 
 def check_bound(emitted: EmittedModule, folder: Path) -> None:
     closure = emitted.spec.closure
-    rows = far_and_near(np.array([closure.home[k] for k in closure.given]))
+    rows = far_and_near(np.array([closure.home[k] for k in closure.actuated]))
     found, allowed = counted(emitted, folder, rows)
     assert len(found) == len(rows) and found[:, 1].max() <= allowed
     assert set(found[:, 0]) <= {DONE, OPEN, SINGULAR, UNFINISHED}

@@ -15,7 +15,7 @@ NAME = "orthoglide-2003"
 def around_home(samples, reach, seed=4):
     """(samples, 3) positions, speeds and accelerations."""
     closure = plain(NAME).spec.closure
-    home = np.asarray(closure.home)[list(closure.given)]
+    home = np.asarray(closure.home)[list(closure.actuated)]
     q, qd, qdd = np.random.default_rng(seed).uniform(-1.0, 1.0, (3, samples, 3))
     return home + reach * q, qd, qdd
 

@@ -84,7 +84,7 @@ def motion(spec: ModuleSpec, t: np.ndarray, seed: int) -> tuple[np.ndarray, ...]
     rng = np.random.default_rng(seed)
     closure = spec.closure
     assert closure is not None
-    home = np.array([closure.home[k] for k in closure.given])
+    home = np.array([closure.home[k] for k in closure.actuated])
     size = np.array([0.3 if joint.unit == "rad" else 0.08 for joint in spec.joints])
     size = size * rng.uniform(0.5, 1, len(home))
     w, phase = rng.uniform(4, 8, len(home)), rng.uniform(-3, 3, len(home))
@@ -170,7 +170,7 @@ def test_the_bound_of_the_whole_library_is_a_macro(tmp_path):
     emitted = module("five-bar").emitted
     library = compiled(emitted, tmp_path, "-DFIVE_BAR_MAX_CLOSURE_EVALUATIONS=9")
     counter, u = ctypes.c_int.in_dll(library, "evaluations"), np.zeros(4)
-    home = np.array([emitted.spec.closure.home[k] for k in emitted.spec.closure.given])
+    home = np.array([emitted.spec.closure.home[k] for k in emitted.spec.closure.actuated])
     for far, status in ((1e-3, 0), (0.6, 4), (1e9, 4)):
         counter.value = 0
         q = home + far * np.array([1.0, -1.0])

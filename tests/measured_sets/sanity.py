@@ -35,7 +35,7 @@ def faults(found: Diagnosis) -> tuple[str, ...]:
         name = finding.effect + (f"@{finding.joint}" if finding.joint else "")
         way = "fact" if finding.status == "confirmed" else "hedged"
         wrong = list(gain_faults(finding.to_json()))
-        if not finding.objection:
+        if not finding.caveat:
             wrong += [*value_faults(finding.parameters), *_friction_faults(found, finding)]
         lines += [f"{way}: {name}: {what}" for what in wrong]
     return tuple(lines)

@@ -91,14 +91,14 @@ def _diagnosis(answer: Answer) -> list[str]:
 
 
 def _effect(finding: Mapping[str, Any]) -> str:
-    doubt = finding["objection"] or not all(look["agrees"] for look in finding["looks"])
+    doubt = finding["caveat"] or not all(split["agrees"] for split in finding["splits"])
     change = " -> ".join(format_percent(finding[name]) for name in ("error_before", "error_after"))
     return f"{_label(finding)}{'?' if doubt else ''} {change}"
 
 
 def _label(finding: Mapping[str, Any]) -> str:
     """Effect and joint, and the waves per turn that distinguish one ripple from another."""
-    waves = (finding.get("parameters") or finding.get("shapes") or {}).get("m")
+    waves = (finding.get("parameters") or finding.get("nonlinear_parameters") or {}).get("m")
     ripple = finding["effect"].endswith("ripple") and waves is not None
     return named(key(finding)) + (f" m={waves:.3g}" if ripple else "")
 

@@ -14,11 +14,11 @@ from tests.measured_sets.suite import run
 from tests.measured_sets.table import improvement, sanity, stability, stays, wrong
 
 
-def finding(effect, joint, agrees=True, objection=""):
+def finding(effect, joint, agrees=True, caveat=""):
     errors = {"error_before": 0.1, "error_after": 0.05, "gain": 0.75}
-    looks = [{"what": "cut-offs x 0.7", "leads": None, "agrees": agrees}]
+    looks = [{"label": "cut-offs x 0.7", "leading_effect": None, "agrees": agrees}]
     return {"effect": effect, "joint": joint, "ties": [{"effect": "drift", "joint": joint}],
-            "looks": looks, "objection": objection, **errors}  # fmt: skip
+            "splits": looks, "caveat": caveat, **errors}  # fmt: skip
 
 
 EMPS = Case("emps", "forward")
@@ -54,7 +54,7 @@ def test_a_set_stays_or_moves(case):
 
 
 def test_the_tables():
-    doubted = finding("spring", "1", objection="no spring"), finding("drift", "1", agrees=False)
+    doubted = finding("spring", "1", caveat="no spring"), finding("drift", "1", agrees=False)
     text = stability([answer(SPRING, DELAY), answer(*doubted), FAILED])
     assert "| emps | forward | 1 | missing | spring@2 10 % -> 5 %; time_delay 10 % -> 5 %" in text
     assert "| 1, 1 |" in text and "1.0 fit + 2.0 diagnosis" in text
@@ -64,7 +64,7 @@ def test_the_tables():
 
     said = {"joints": {"1": [0.05, 0.03], "2": [0.02, 0.021]}, "whole": 0.63, "scatter": 4.25,
             "rises": ["2"], "spoilt": False, "left_out": ["drift, joint 2 (no)"]}  # fmt: skip
-    said["kept"] = [{"effect": "motor_ripple", "joint": "1", "shapes": {"m": 84.0}}]
+    said["kept"] = [{"effect": "motor_ripple", "joint": "1", "nonlinear_parameters": {"m": 84.0}}]
     text = improvement([Answer(Case("ur10e", "forward"), said, {"add": 2.0}), FAILED])
     assert "| ur10e | forward | 1: 5 -> 3; 2: 2 -> 2.1! | 0.630 | 4.2 | 2.0 add |" in text
     assert "ur10e, forward: kept motor_ripple@1 m=84\n  - left out: drift, joint 2 (no)" in text

@@ -51,7 +51,7 @@ def test_every_identification_is_reproduced(name, capsys, tmp_path):
     rows = [row for table in result["methods"] for row in table["rows"]]
     assert sum(row["outcome"] == "truth recovered" for row in rows) >= 7
     for row in rows:
-        share = re.search(r"\(([\d.e+]+) %\)$", row["ours"])
+        share = re.search(r"\(([\d.e+]+) %\)$", row["computed_value"])
         if row["outcome"] == "truth recovered":
             assert share is not None and float(share[1]) <= 50, row
 
@@ -102,7 +102,7 @@ def test_a_value_far_from_the_truth_is_not_recovered():
     assert judge_recovery("M", "1", 9.0, 1.0, 0.63).outcome is Outcome.FAILED
     # nor one whose sigma is more than half of it: one rule for all papers, for a truth of 0 too
     assert judge_recovery("M", "1", 1.0, 1.0, 0.49).outcome is Outcome.RECOVERED
-    assert judge_recovery("M", "1", 1.0, 1.0, 0.63).why.startswith("sigma 63 %")
+    assert judge_recovery("M", "1", 1.0, 1.0, 0.63).reason.startswith("sigma 63 %")
     for truth, value, sigma in ((1.0, 1.0, 0.63), (0.0, 0.0, 0.1), (0.0, 0.01, 0.01)):
         assert judge_recovery("M", "1", truth, value, sigma).outcome is Outcome.UNDETERMINED
 

@@ -206,7 +206,7 @@ def test_an_effect_of_a_robot_file_shows_itself_on_its_variable(
 ) -> None:
     text = case.derivation.robot.text + f'\n[own_effects.brake]\ncolumns = {{Keb = "{equation}"}}\n'
     robot = parse_robot_text(text, "own")
-    assert robot.own_effects[0].shows == axis
+    assert robot.own_effects[0].signature_axis == axis
 
 
 def test_the_model_after_is_nearer_where_the_model_before_was_worst(item: Evidence) -> None:

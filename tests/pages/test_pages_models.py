@@ -62,7 +62,7 @@ def test_two_models_are_told_apart_where_one_has_the_spring(folder: Path) -> Non
     first, second = result["models"]
     assert result["relative_error"] == first["relative_error"]  # the contract's fields: model one
     assert (first["model"], second["model"]) == ("a.json", "b.json")
-    assert "3" in second["best_on"] and first["best_on"] == []
+    assert "3" in second["best_joints"] and first["best_joints"] == []
     for joint, own in result["joints"].items():
         assert own["relative_error"] == pytest.approx(first["joints"][joint]["relative_error"])
     text = words_of(folder / "c.html")
@@ -190,7 +190,7 @@ def test_a_joint_that_got_worse_has_another_colour(after) -> None:
     """A significant rise is no good news: it was drawn as a fall."""
     first, *_, last = after.history
     joints = {"1": (0.02, 0.03), "2": (0.03, 0.02), "3": (0.02, 0.0201)}
-    step = dataclasses.replace(last, joints=joints, changed=("1", "2"))
+    step = dataclasses.replace(last, joints=joints, changed_joints=("1", "2"))
     picture = draw_joints_picture((first, step), dict.fromkeys("123", "N m"))
     found = {
         panel.title: {own.label: own.style for own in panel.series if np.isfinite(own.values[-1])}

@@ -50,25 +50,25 @@ def bands(folder, name):
 
 def test_the_json_tells_cut_offs_and_noise(noisy):
     found = bands(noisy, "fit")
-    assert found["widest"]["parallel_cutoff"] > found["parallel_cutoff"]
+    assert found["widest_cutoffs"]["parallel_cutoff"] > found["parallel_cutoff"]
     assert found["position_cutoff"] >= 2.0 * found["parallel_cutoff"]
-    assert found["limited_by"] in ("1", "2") and len(found["chosen_by"]) >= 2
+    assert found["limiting_joint"] in ("1", "2") and len(found["reasons"]) >= 2
     assert [own["joint"] for own in found["noise"]] == ["1", "2"]
     for own in found["noise"]:
-        assert (own["unit"], own["of"], own["moves"]) == ("rad", "positions", True)
+        assert (own["unit"], own["quantity"], own["is_moving"]) == ("rad", "positions", True)
         assert own["density"] == pytest.approx(2.0 * SIZE**2 / RATE, rel=0.4)
         assert own["deviation"] == pytest.approx(SIZE, rel=0.2)
-        assert own["band_hz"] < own["hides_above_hz"] < 30.0
+        assert own["band_hz"] < own["noise_crossover_hz"] < 30.0
         assert len(own["frequency"]) == len(own["spectrum"]) > 10
     # no joint's noise makes more torque at the parallel filter than is left of it
-    crossings = [(own["torque_noise"] / own["torque_of_noise"]) ** 0.25 for own in found["noise"]]
+    crossings = [(own["torque_noise"] / own["noise_torque"]) ** 0.25 for own in found["noise"]]
     assert found["parallel_cutoff"] <= 1.1 * min(crossings)
 
 
 def test_a_log_tells_the_same_with_its_robot_and_the_noise_without(noisy):
     assert bands(noisy, "log_robot") == bands(noisy, "fit")
     alone = bands(noisy, "log")
-    assert alone["parallel_cutoff"] is None and alone["chosen_by"] == []
+    assert alone["parallel_cutoff"] is None and alone["reasons"] == []
     densities = [[own["density"] for own in found["noise"]]
                  for found in (alone, bands(noisy, "fit"))]  # fmt: skip
     assert densities[0] == pytest.approx(densities[1], rel=1e-3)
@@ -90,10 +90,10 @@ def test_the_picture_crosses_where_the_numbers_say(noisy):
         curves = {s.label: s for s in row[1].series if isinstance(s, Curve)}
         noise, torque = curves["torque of that noise"], curves["noise of the torque"].y[0]
         cross = np.exp(np.interp(np.log(torque), np.log(noise.y), np.log(noise.x)))
-        assert cross == pytest.approx((own.torque_noise / own.torque_of_noise) ** 0.25, rel=1e-6)
+        assert cross == pytest.approx((own.torque_noise / own.noise_torque) ** 0.25, rel=1e-6)
         assert curves["parallel filter"].x[0] == model.fit.bands.parallel_cutoff
     limits = [row[1].title for row in picture.panels if "limits" in row[1].title]
-    assert limits == [f"Joint {model.fit.bands.limited_by}: torques, which limits"]
+    assert limits == [f"Joint {model.fit.bands.limiting_joint}: torques, which limits"]
 
 
 TIME = np.arange(2000) / 200.0

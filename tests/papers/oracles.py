@@ -57,7 +57,7 @@ PAPERS = ("briot-2012", "guegan-2003", "houda")
 
 
 def relation(paper, line):
-    if line.robot not in m.ROBOTS or line.of or line.through or line.given:
+    if line.robot not in m.ROBOTS or line.substitution or line.relation_robot or line.assumptions:
         return None
     left, _, right = line.text.partition("=")
     rename = build_renamer(paper, line, line.legs[0])
@@ -135,7 +135,7 @@ def platform(paper, line):
 
 def effort(paper, line):
     """Forces at one place and the other do the same work for every velocity V."""
-    here, there, what = line.gives
+    here, there, what = line.expected
     J = {key: RNG.normal(0, 1, (3, 3)) for key in ("p", "i", "1", "2", "3")}
     speeds = {"motors": np.linalg.inv(J["p"]), "platform": np.eye(3)}
     speeds["leg"] = np.linalg.inv(J[what[-1]]) if here == "leg" else None
@@ -160,7 +160,7 @@ def energy(paper, line):
         known[letter] = vector
     rows = line.quote.startswith("uk")
     text = re.sub(r"^([eu]k|hs\^1 =)", "", line.quote).replace(",s", "")
-    for cell, name in zip(text.split("|"), line.gives, strict=True):
+    for cell, name in zip(text.split("|"), line.expected, strict=True):
         dot = re.fullmatch(r"(.*?)\^[0k](\w)k?\^T ?\^?[0k](\w)k", cell.strip())
         if dot:
             sign = {"-": -1.0, "1/2 ": 0.5}[dot[1]]
@@ -192,13 +192,13 @@ def spun(rows):
 
 
 def rotation(paper, line):
-    w, known = spun(line.gives)
+    w, known = spun(line.expected)
     return bool(np.allclose([value(part, known) for part in line.quote.split(";")], w))
 
 
 def element(paper, line):
     left, _, right = line.quote.partition("=")
-    w, known = spun(line.gives)
+    w, known = spun(line.expected)
     wanted = m.kinetic(w, np.zeros(3))[int(left.strip()[-1]) - 1] / 2
     return bool(np.isclose(value(right, known), wanted))
 
@@ -207,10 +207,10 @@ def column(paper, line):
     """Ten entries, with which the second link's row gives the first element of the third's."""
     entries = [float(x) for x in re.findall(r"\d", line.quote.partition("[")[2].partition("]")[0])]
     state = RNG.bit_generator.state
-    above = m.kinetic(spun(line.gives[:-1])[0], np.zeros(3))
+    above = m.kinetic(spun(line.expected[:-1])[0], np.zeros(3))
     RNG.bit_generator.state = state
     angles, speeds = RNG.uniform(-1, 1, (2, 2))
-    frame = m.moving(lambda u: chain([*u, 0], line.gives), angles, speeds)
+    frame = m.moving(lambda u: chain([*u, 0], line.expected), angles, speeds)
     wanted = m.kinetic(m.rigid(frame)[0], np.zeros(3))[0]
     return len(entries) == 10 and bool(np.isclose(above @ entries, wanted))
 
@@ -265,7 +265,7 @@ def recursion(paper, line):
             "barsigmak": 1 - slides, "sigmak": slides, "qdk": qd, "^kak": np.array([0, 0, 1]),
         }  # fmt: skip
         found = side_by_side(line.quote, letters)
-        if not np.allclose(found, wk if line.gives[0] == "angular" else vk):
+        if not np.allclose(found, wk if line.expected[0] == "angular" else vk):
             return False
     return True
 
@@ -281,7 +281,7 @@ def body(paper, line):
         "^kSk": np.array(first) / mass,
     }  # fmt: skip
     height = -masses @ np.array([g @ (place + axes @ r) for r in m.POINTS])
-    wanted = masses @ m.point_energies(w, v) / 2 if line.gives[0] == "E" else height
+    wanted = masses @ m.point_energies(w, v) / 2 if line.expected[0] == "E" else height
     return bool(np.allclose(side_by_side(line.quote, letters), wanted))
 
 
@@ -440,7 +440,7 @@ def vector(text, q, p, qd):
 def velocity(paper, line):
     """Velocities, their changes with one speed, and momenta, by complex steps of the places."""
     q, qd, p = *RNG.uniform(-1, 1, (2, 3)), wrist(8)
-    for name, cell in zip(line.gives, line.text.split(";"), strict=True):
+    for name, cell in zip(line.expected, line.text.split(";"), strict=True):
         row = re.fullmatch(r"(beta|p)(\d)(\d?)", name)
         which = "abc"[(int(row[2]) - 1) // 2] if row else name[-1].lower()
         turns = int(row[2]) % 2 == 0 if row else name.startswith("omega")
@@ -592,7 +592,7 @@ NAMES = {
 def arithmetic(paper, line):
     """Table 3 of 2003: a relative sigma has the sign of the value, eq. (37)."""
     found = [float(n.value) for n in read_numbers(line.quote)]
-    if line.gives != ("b = abs(b)*a/abs(a)",):
+    if line.expected != ("b = abs(b)*a/abs(a)",):
         return None
     return found[-2] * found[-1] > 0
 

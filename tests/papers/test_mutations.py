@@ -47,15 +47,15 @@ def test_every_alteration_of_a_line_is_noticed(name):
     robots, survivors, tried = robots_of(name), [], 0
     for line in lines:
         for text in islice(altered(line.text, line.check), tried % EVERY, None, EVERY):
-            changed = replace(line, **{"quote" if line.quote else "ours": text})
+            changed = replace(line, **{"quote" if line.quote else "consequence": text})
             tried += 1
             if check_line(paper, changed, robots).verdict is not LineVerdict.DIFFERENT:
                 survivors.append(f"{line.place}: {text}")
-        for index, given in enumerate(line.given):
+        for index, given in enumerate(line.assumptions):
             for text in islice(altered(given, line.check), tried % EVERY, None, EVERY):
-                others = (*line.given[:index], text, *line.given[index + 1 :])
+                others = (*line.assumptions[:index], text, *line.assumptions[index + 1 :])
                 tried += 1
-                found = check_line(paper, replace(line, given=others), robots)
+                found = check_line(paper, replace(line, assumptions=others), robots)
                 if found.verdict is not LineVerdict.DIFFERENT:
                     survivors.append(f"{line.place}: {line.text}; {text}")
     assert not survivors, "\n".join(survivors)

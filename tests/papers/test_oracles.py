@@ -31,9 +31,9 @@ def test_every_charge_and_every_equality_is_found_by_other_means(name):
             unproved.append(f"{line.place}: {line.text}")
         if verdict not in (LineVerdict.MISPRINT, LineVerdict.DIFFERENT) and found is False:
             refuted.append(f"{line.place}: {line.text}")
-        right = replace(line, quote=line.corrected, corrected="", slip="")
-        if line.corrected and holds(name, right) is False:
-            refuted.append(f"{line.place}: {line.corrected}")
+        right = replace(line, quote=line.correction, correction="", slip="")
+        if line.correction and holds(name, right) is False:
+            refuted.append(f"{line.place}: {line.correction}")
     assert unproved == []
     assert refuted == []
     assert judged >= LEAST[name]

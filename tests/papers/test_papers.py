@@ -37,10 +37,10 @@ def test_nothing_differs_but_what_is_known_to(name):
     assert [line for line in lines if line.verdict is LineVerdict.DIFFERENT] == []
     different = [line for line in lines if line.verdict is LineVerdict.MISPRINT]
     assert len(different) == DIFFERENT[name]
-    assert all(line.slip and line.why for line in different)
+    assert all(line.slip and line.reason for line in different)
     for line in lines:  # what is called equal is checked exactly
         exact = line.verdict in (LineVerdict.EQUAL, LineVerdict.ROUNDED)
-        assert not (exact and any(sign in line.derived for sign in "<>")), line
+        assert not (exact and any(sign in line.derived_text for sign in "<>")), line
 
 
 def test_the_command_ends_well(capsys, tmp_path):
@@ -75,14 +75,15 @@ def test_a_known_difference_that_is_not_there_is_a_difference():
                         "quote": "2i | 1i | 1 | 0 | 0 | 0 | -pi/2 | 0 | q2i | 0",
                         "difference": "-1 inmu", "slip": "error"}),
         ("guegan-2003", {"check": "effort", "quote": "^0Jp^T (^0Fp", "slip": "scan",
-                         "gives": ("platform", "motors", "Fp"), "difference": "Fp Jpinv - Fp Jp"}),
+                         "expected": ("platform", "motors", "Fp"),
+                         "difference": "Fp Jpinv - Fp Jp"}),
         ("houda", {"check": "element", "quote": "h2^4 = (cos theta2 qd1)^2",
-                   "gives": ("11", "21")}),
-        ("houda", {"check": "recursion", "gives": ("angular",), "quote": "qdk (^kak"}),
-        ("houda", {"check": "energy", "gives": ("XY",), "quote": "1/2 omega1 omega2",
+                   "expected": ("11", "21")}),
+        ("houda", {"check": "recursion", "expected": ("angular",), "quote": "qdk (^kak"}),
+        ("houda", {"check": "energy", "expected": ("XY",), "quote": "1/2 omega1 omega2",
                    "difference": "1/2 w1 w2 inXY", "slip": "misprint",
-                   "corrected": "2 omega1 omega2"}),
-        ("hanssen-2000", {"check": "velocity", "gives": ("vCMa",), "quote": "-at3 qd1"}),
+                   "correction": "2 omega1 omega2"}),
+        ("hanssen-2000", {"check": "velocity", "expected": ("vCMa",), "quote": "-at3 qd1"}),
         ("hanssen-2000", {"check": "indices", "quote": "Jij ddotqi + gi = taui"}),
     ],
 )  # fmt: skip
@@ -122,12 +123,14 @@ def test_decimals_hold_to_their_printed_digits():
 
 
 def test_a_sealed_quotation_may_not_be_touched():
-    line = next(line for line in read_paper("guegan-2003").lines if line.measured)
+    line = next(line for line in read_paper("guegan-2003").lines if line.is_measured)
     paper, robots = read_paper("guegan-2003"), robots_of("guegan-2003")
     assert check_line(paper, line, robots).verdict is LineVerdict.MEASURED
     touched = dataclasses.replace(line, quote=line.quote.replace("4805.57", "4805.58"))
     found = check_line(paper, touched, robots)
-    assert found.verdict is LineVerdict.DIFFERENT and "not those that were read" in found.derived
+    assert (
+        found.verdict is LineVerdict.DIFFERENT and "not those that were read" in found.derived_text
+    )
 
 
 @pytest.mark.parametrize(
@@ -149,9 +152,9 @@ def test_a_sealed_quotation_may_not_be_touched():
     ],
 )  # fmt: skip
 def test_what_cannot_be_read_is_different_and_says_why(check, quote, gives, told):
-    found = one("briot-2012", robot=CLOSED, check=check, quote=quote, gives=gives)
+    found = one("briot-2012", robot=CLOSED, check=check, quote=quote, expected=gives)
     assert found.verdict is LineVerdict.DIFFERENT
-    assert told in found.derived
+    assert told in found.derived_text
 
 
 def test_sums_are_read_as_they_are_printed():

@@ -46,7 +46,7 @@ def test_every_quotation_stands_in_the_paper(name):
         pytest.skip(f"NOT CHECKED: the papers are not here: {PAPERS.parent.name}/{PAPERS.name}")
     text = squeezed((PAPERS / FILES[name]).read_text(encoding="utf-8"))
     paper = read_paper(name)
-    quotes = [q for line in paper.lines if line.quote for q in (line.quote, *line.given)]
+    quotes = [q for line in paper.lines if line.quote for q in (line.quote, *line.assumptions)]
     assert [q for q in quotes if squeezed(q) not in text] == []
 
 

@@ -34,7 +34,7 @@ def motion(reach, seconds=12.0):
 def home():
     """(2,) positions at home."""
     closure = compiled("five-bar").spec.closure
-    return np.asarray(closure.home)[list(closure.given)]
+    return np.asarray(closure.home)[list(closure.actuated)]
 
 
 def log_of(reach, noise=0.0):

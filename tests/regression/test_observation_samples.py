@@ -226,8 +226,8 @@ def test_automatic_cutoffs_follow_the_motion(hertz, rate, position, parallel):
     assert chosen.parallel_cutoff == pytest.approx(parallel, rel=0.05)
     given = Processing(position_cutoff=40.0, parallel_cutoff=7.0)
     kept = cutoffs_of(given, piece)[0]
-    assert (kept.position_cutoff, kept.parallel_cutoff, kept.chosen) == (40.0, 7.0, ())
-    assert chosen.chosen == ("position_cutoff", "parallel_cutoff")
+    assert (kept.position_cutoff, kept.parallel_cutoff, kept.automatic_cutoffs) == (40.0, 7.0, ())
+    assert chosen.automatic_cutoffs == ("position_cutoff", "parallel_cutoff")
     assert cutoffs_of(chosen, piece)[0] == chosen
 
 
@@ -289,12 +289,12 @@ def test_joints_at_rest_do_not_count_whatever_their_noise(colour):
     log = arm_log()
     log.q[:, 1:] = 0.3 + np.column_stack([noise_of(colour, 1e-3, seed) for seed in range(3)])
     piece = first_piece(log)
-    assert [joint.moves for joint in noise_in(piece).joints] == [True, False, False, False]
+    assert [joint.is_moving for joint in noise_in(piece).joints] == [True, False, False, False]
     assert band_of(piece) == pytest.approx(0.6, abs=0.05)
     said = cutoffs_of(Processing(), piece)[1]
     assert "joints 2, 3, 4 rest: not counted in the motion band" in said
     both = noise_in(piece, first_piece(arm_log()))
-    assert all(joint.moves for joint in both.joints)
+    assert all(joint.is_moving for joint in both.joints)
 
 
 def test_a_commanded_joint_moves_no_faster_than_its_command():
@@ -318,7 +318,7 @@ def test_a_motion_with_slow_and_fast_parts_is_motion():
 def test_processing_survives_json_and_refuses_nonsense():
     full = ChosenProcessing(
         30.0, 5.0, 4, "log", 0.01, {"1": 0.2, "5+6": float("inf")}, True, 0.1,
-        chosen=("parallel_cutoff",),
+        automatic_cutoffs=("parallel_cutoff",),
     )  # fmt: skip
     assert read_processing(full.to_json()) == full
     assert read_processing(Processing().to_json()) == Processing()
@@ -362,7 +362,7 @@ def test_the_floor_is_the_density_of_white_noise(rate, size):
     found = noise_found(smooth(time) + white, rate)
     assert found.density == pytest.approx(2.0 * size**2 / rate, rel=0.3)
     assert found.deviation == pytest.approx(size, rel=0.15)
-    assert 2.0 < found.hides_above_hz < 30.0 and found.colour == 0.0
+    assert 2.0 < found.noise_crossover_hz < 30.0 and found.spectral_slope == 0.0
     # what is differentiated below a cut-off has the noise that is reported
     speed = np.gradient(
         apply_zero_phase_lowpass(white[:, None], 1 / rate, 20.0, 100)[:, 0], 1 / rate
@@ -376,7 +376,7 @@ def test_a_finer_encoder_hides_the_motion_later():
     found = [
         noise_found(np.round(smooth(time) * n / (2 * np.pi)) * (2 * np.pi / n), 1e3) for n in counts
     ]
-    assert found[0].hides_above_hz < found[1].hides_above_hz < found[2].hides_above_hz
+    assert found[0].noise_crossover_hz < found[1].noise_crossover_hz < found[2].noise_crossover_hz
     for own, n in zip(found, counts, strict=True):
         step = 2 * np.pi / n
         assert own.step == pytest.approx(step, rel=1e-6)
@@ -391,7 +391,7 @@ def test_noise_that_grows_towards_low_frequencies_is_told():
     draw = np.random.default_rng(3).normal(0.0, 1e-4, len(time))
     coloured = np.fft.irfft(np.fft.rfft(draw) * (f / 100.0) ** -0.75)
     found = noise_found(smooth(time) + coloured, 1e3)
-    assert found.colour == pytest.approx(1.5, abs=0.2)
+    assert found.spectral_slope == pytest.approx(1.5, abs=0.2)
     assert "growing as f^-1." in found.format_words()
 
 
@@ -399,7 +399,7 @@ def test_a_valley_between_two_lines_of_the_motion_is_no_floor():
     time = np.arange(20000) / 1000.0
     both = np.sin(2 * np.pi * 0.5 * time) + 0.01 * np.sin(2 * np.pi * 3.0 * time)
     white = np.random.default_rng(4).normal(0.0, 3e-4, len(time))
-    assert noise_found(both + white, 1e3, 0.5).hides_above_hz > 3.0
+    assert noise_found(both + white, 1e3, 0.5).noise_crossover_hz > 3.0
 
 
 def test_noise_of_logged_accelerations_lowers_the_parallel_filter_and_is_in_sigma():

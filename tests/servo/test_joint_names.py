@@ -57,11 +57,11 @@ def test_further_joints_of_the_log_are_left_out(arm):
 
 def test_the_guess_says_the_names(arm):
     given, _ = columns("position/{}", "effort/{}")
-    suggested = inspect_log(given, arm).suggested
+    suggested = inspect_log(given, arm).suggested_map
     assert f'names = {{1 = "{NAMES[0]}", 2 = "{NAMES[1]}", 3 = "{NAMES[2]}"}}\n' in suggested
     assert '"q<j>" = "position/{name}"' in suggested
     doubt = "in the order of the log: which joint is which?"
-    assert doubt not in suggested and doubt in inspect_log(given).suggested
+    assert doubt not in suggested and doubt in inspect_log(given).suggested_map
 
 
 def test_names_of_log_go_before_those_of_the_file():

@@ -65,7 +65,7 @@ def test_frames_are_where_the_simulator_has_them(name: str) -> None:
 @pytest.mark.parametrize("name", TIED)
 def test_home_is_the_posture_that_the_simulator_closes(name: str) -> None:
     skeleton, home = standing(name)
-    assert home.closed and home.held and home.loose == ()
+    assert home.is_closed and home.is_as_stated and home.loose_joints == ()
     start = home.u[list(skeleton.independent_places)]
     theirs = compute_closed_postures(
         skeleton.robot, build_constraints(skeleton.robot), start[None]
@@ -134,7 +134,7 @@ def five_bar(*changes: tuple[str, str]) -> tuple[Skeleton, Posture]:
 
 def test_loops_that_cannot_close_are_seen_open() -> None:
     skeleton, posture = five_bar(("L0 = 0.20", "L0 = 5.0"))
-    assert not posture.closed
+    assert not posture.is_closed
     np.testing.assert_array_equal(posture.u, skeleton.stated)
     assert compute_gaps(skeleton, posture.u)[0].distance > 3.0
 
@@ -142,20 +142,22 @@ def test_loops_that_cannot_close_are_seen_open() -> None:
 def test_actuated_joints_that_are_stated_wrongly_are_told() -> None:
     wrong = ("q11 = 2.2", "q11 = -2.2"), ("q12 = 0.9", "q12 = 0.2"), ("L2 = 0.40", "L2 = 0.2")
     _, posture = five_bar(*wrong)
-    assert posture.closed and not posture.held
+    assert posture.is_closed and not posture.is_as_stated
 
 
 def test_what_could_move_with_the_motors_locked_is_told(loop_robots_folder: FurtherRobots) -> None:
     singular = build_skeleton(read_robot(loop_robots_folder / "3rpr_singular.toml"))
-    assert {"P"} <= set(find_home_posture(singular).loose)  # cylinders through one point: it turns
+    assert {"P"} <= set(
+        find_home_posture(singular).loose_joints
+    )  # cylinders through one point: it turns
     other = build_skeleton(read_robot(loop_robots_folder / "3rpr_sim.toml"))
-    assert find_home_posture(other).loose == ()
+    assert find_home_posture(other).loose_joints == ()
 
 
 def test_a_stretched_linkage_is_singular() -> None:
     flat = ("q11 = 2.2", "q11 = 0.0"), ("q21 = -1.37", "q21 = 0.0"), ("q22 = 1.46", "q22 = 0.0")
     _, posture = five_bar(("L0 = 0.20", "L0 = 1.43"), ("q12 = 0.9", 'q12 = "pi"'), *flat)
-    assert posture.closed and set(posture.loose) == {"21", "22"}
+    assert posture.is_closed and set(posture.loose_joints) == {"21", "22"}
 
 
 def test_opposite_axes_are_not_closed() -> None:
@@ -163,7 +165,9 @@ def test_opposite_axes_are_not_closed() -> None:
     text = edited(read_builtin_robot("sr400"), (row + "0, ", row + '"pi", '))
     skeleton = build_skeleton(parse_robot_text(text, "sr400"))
     posture = find_home_posture(skeleton)
-    assert not posture.closed and compute_gaps(skeleton, posture.u)[0].angle == pytest.approx(np.pi)
+    assert not posture.is_closed and compute_gaps(skeleton, posture.u)[0].angle == pytest.approx(
+        np.pi
+    )
 
 
 @pytest.mark.parametrize("name", ROBOTS)

@@ -128,8 +128,8 @@ def test_sensors_seeds_and_progress():
     assert np.array_equal(log.tau, again.tau) and np.array_equal(log.q, again.q)
     assert np.array_equal(ideal.q, ideal.truth.q) and np.array_equal(ideal.tau, ideal.truth.tau)
     assert np.abs(ideal.truth.q - other.truth.q).max() > 0.01
-    drawn = ideal.truth.drawn
-    assert drawn == other.truth.drawn and "ZZ11" not in drawn
+    drawn = ideal.truth.random_parameters
+    assert drawn == other.truth.random_parameters and "ZZ11" not in drawn
     assert all(ideal.truth.parameters[n] != other.truth.parameters[n] for n in drawn)
 
 
@@ -144,7 +144,7 @@ def test_legs_that_share_parameters_are_alike_and_told_once():
     truth = simulate(source, dataclasses.replace(IDEAL, duration=0.2)).truth
     names = list(truth.parameters)
     assert "M2" in names and not {"M21", "M22", "M23"} & set(names)
-    assert len(names) == len(set(names)) and set(truth.drawn) <= set(names)
+    assert len(names) == len(set(names)) and set(truth.random_parameters) <= set(names)
     stated = dataclasses.replace(source, parameters={"M2": 0.7, "M3": 0.2})
     values = draw_plant_parameters(stated, collect_motion_limits(stated)).standard
     assert [values[f"M2{leg}"] for leg in "123"] == [0.7] * 3

@@ -187,7 +187,7 @@ def friction_along(text, effects, settings=SHORT, joint=1):
     log = simulate(ARM, settings_of(text, settings))
     truth = log.truth
     rest = torques(plain_of(without(ARM, *effects)), truth.q, truth.qd, truth.qdd)
-    return log, truth.hidden[0].values, (truth.tau - rest)[:, joint]
+    return log, truth.hidden_effects[0].values, (truth.tau - rest)[:, joint]
 
 
 def test_bristles_hold_at_reversals_and_slide_after():
@@ -379,7 +379,7 @@ def test_random_torques_on_the_machine(clean):
 def test_every_effect_is_drawn_seen_and_kept_under_control(name):
     settings = dataclasses.replace(SHORT, duration=0.8, rate=400.0)
     log = simulate(ARM, settings_of(name, settings))
-    (effect,) = log.truth.hidden
+    (effect,) = log.truth.hidden_effects
     assert effect.effect == name
     assert (effect.joint is None) == (HIDDEN[name].where == "system")
     assert np.abs(log.q - log.qc).max() < 0.05
@@ -522,8 +522,8 @@ def test_the_command_and_its_files(tmp_path, capsys):
     argv += ["--process-noise", "0.01", "--truth-out", str(truth), "--json", str(told)]
     assert main(argv) == 0
     assert "hidden: spring on 1: stiffness = 3, rest" in capsys.readouterr().out
-    hidden = json.loads(truth.read_text())["hidden"]
-    assert json.loads(told.read_text())["hidden"] == hidden
+    hidden = json.loads(truth.read_text())["hidden_effects"]
+    assert json.loads(told.read_text())["hidden_effects"] == hidden
     effects = [(effect["effect"], effect["joint"]) for effect in hidden]
     assert effects == [("temperature_friction", "2"), ("spring", "1")]
     assert hidden[1]["values"]["stiffness"] == 3.0

@@ -241,7 +241,10 @@ def test_files(arm_log, tmp_path):
     truth = json.loads((tmp_path / "truth.json").read_text())
     assert truth["robot"] == "arm" and truth["seed"] == 0
     assert truth["parameters"] == arm_log.truth.parameters
-    assert truth["drawn"] == list(arm_log.truth.drawn) and truth["hidden"] == []
+    assert (
+        truth["random_parameters"] == list(arm_log.truth.random_parameters)
+        and truth["hidden_effects"] == []
+    )
 
 
 def test_files_that_cannot_be_written(arm_log, tmp_path):

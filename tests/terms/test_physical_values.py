@@ -119,7 +119,9 @@ def test_known_parameters_are_tested_and_the_test_is_honest():
     assert 0.8 < np.sqrt(np.mean(np.square(z))) < 1.2
     wrong = {x: truth[x] for x in solution.known} | {"ct2": truth["ct2"] * 1.05}
     told = {row.letter: row for row in check_known(solution, data, C, wrong, sigmas)}
-    assert told["ct2"].contradicts and told["ct2"].implied == pytest.approx(truth["ct2"], rel=0.01)
+    assert told["ct2"].is_contradictory and told["ct2"].implied_value == pytest.approx(
+        truth["ct2"], rel=0.01
+    )
     assert not check_known(solve(system, (*SEVEN, "cm")), data, C, wrong, sigmas)
 
 
@@ -149,9 +151,9 @@ def test_a_wrong_cad_entry_is_found(seed):
     slope = np.abs(data_of(system, truth | {letter: truth[letter] + h}) - data) / h
     size = 15 / np.max(slope / np.sqrt(np.diag(C)))
     found = compare_cad(system, sample, C, truth | {letter: truth[letter] + size})
-    named = {e.letters[0]: e for e in found.explanations if len(e.letters) == 1 and e.enough}
+    named = {e.letters[0]: e for e in found.explanations if len(e.letters) == 1 and e.is_sufficient}
     assert letter in named, (letter, found.suspicious, found.explanations)
-    assert named[letter].fitted[0] == pytest.approx(truth[letter], abs=size / 3)
+    assert named[letter].fitted_values[0] == pytest.approx(truth[letter], abs=size / 3)
     assert named[letter].chi_squared < found.chi_squared / 3
 
 
@@ -174,7 +176,7 @@ def test_cad_tolerances_widen_and_missing_values_are_told():
     loose = compare_cad(system, data, C, off, {"at3": 0.05 * abs(truth["at3"])})
     assert not loose.suspicious
     partial = {x: v for x, v in truth.items() if x != "cJ22"}
-    left = compare_cad(system, data, C, partial, {}, {"PG1": "set aside"}).left_out
+    left = compare_cad(system, data, C, partial, {}, {"PG1": "set aside"}).not_compared
     assert left == {"PG1": "set aside", "PJ1": "no CAD value of cJ22"}
     assert compute_z_limit(1) == pytest.approx(2.576, abs=1e-3)
     assert [compute_chi_squared_limit(k) for k in (0, 5, 17, 100)] == pytest.approx(
@@ -260,7 +262,12 @@ def brute_force(system, size: int) -> list[tuple[str, ...]]:
 @pytest.mark.rotating("long tests of terms")
 def test_the_wrist_as_counted_elsewhere():
     found = find_known_sets(system_of("wrist"))
-    assert (found.size, found.smallest, found.count, found.possible) == (8, 8, 61879, 1081575)
+    assert (found.size, found.smallest, found.count, found.candidate_count) == (
+        8,
+        8,
+        61879,
+        1081575,
+    )
     assert dict(found.classes) == CLASSES
     contains = found.contains
     assert contains["cm"] == 9062 and contains["bl1"] == contains["ct1"] == 34516
@@ -269,7 +276,7 @@ def test_the_wrist_as_counted_elsewhere():
 
 def test_seven_never_suffice():
     found = find_known_sets(system_of("wrist"), 7)
-    assert (found.count, found.possible, found.smallest) == (0, 480700, 8)
+    assert (found.count, found.candidate_count, found.smallest) == (0, 480700, 8)
 
 
 def class_of(system, members):
@@ -294,7 +301,7 @@ def test_counts_by_brute_force(name, size):
         members = [s for s in expected if class_of(system, s) == key]
         assert len(members) == count
         if key == next(iter(found.classes)):
-            assert set(found.easiest) == set(members)
+            assert set(found.easiest_sets) == set(members)
 
 
 @pytest.mark.parametrize("name", ["scara", *rotating("puma560", "orthoglide-2003")])
@@ -335,6 +342,6 @@ def test_rating_against_finite_differences():
             letters |= {x: letters[x] + dx for x, dx in zip(unknown, step, strict=True)}
         squares += [((letters[x] - truth[x]) / truth[x] / 1e-6) ** 2 for x in unknown]
     grown = dict(zip(unknown, np.sqrt(squares), strict=True))
-    assert row.middle == pytest.approx(np.median(list(grown.values())), rel=1e-3)
+    assert row.median_error == pytest.approx(np.median(list(grown.values())), rel=1e-3)
     assert row.letter == max(grown, key=grown.__getitem__)
-    assert row.worst == pytest.approx(grown[row.letter], rel=1e-3)
+    assert row.largest_error == pytest.approx(grown[row.letter], rel=1e-3)
