@@ -253,7 +253,7 @@ def emit(
             **build_package_files(spec, code, values),
             **vectors,
             "base_parameters.md": module.render("base_parameters.md"),
-            manifest.MANIFEST: dataclasses.replace(spec, origin=make_origin()).to_json(),
+            manifest.MANIFEST: dataclasses.replace(spec, origin=make_origin()).format_file(),
         }
 
     return EmittedModule(module.spec, _LazyFiles({**code, **build_other_files}, remaining))

@@ -76,6 +76,20 @@ def convert_to_plain(content: Any) -> Any:
     return None if unknown else content
 
 
+def format_json(value: Any, indent: str = "", width: int = 160) -> str:
+    """Returns JSON text in which an object or list that fits into a line stands on one."""
+    line = json.dumps(value, allow_nan=False)
+    if len(indent) + len(line) <= width or not value or not isinstance(value, dict | list):
+        return line
+    inner, keys = indent + " ", isinstance(value, dict)
+    parts = [
+        inner + (f"{json.dumps(key)}: " if keys else "") + format_json(value[key], inner, width)
+        for key in (value if keys else range(len(value)))
+    ]
+    first, last = "{}" if keys else "[]"
+    return f"{first}\n" + ",\n".join(parts) + f"\n{indent}{last}"
+
+
 def select_attributes(thing: Any, names: str) -> dict[str, Any]:
     """Returns attributes by name, as JSON names them too; the names with spaces between."""
     return {name: getattr(thing, name) for name in names.split()}

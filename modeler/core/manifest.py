@@ -16,7 +16,14 @@ from typing import Any
 from modeler.core.brief import ShortRepr
 from modeler.core.choices import Precision
 from modeler.core.errors import ManifestError
-from modeler.core.json import JsonError, SchemaError, build_instance, parse_json, shorten_value
+from modeler.core.json import (
+    JsonError,
+    SchemaError,
+    build_instance,
+    format_json,
+    parse_json,
+    shorten_value,
+)
 from modeler.core.result import Result
 
 FORMAT = 2
@@ -342,6 +349,10 @@ class ModuleSpec(ShortRepr):
     def to_json(self) -> str:
         """Returns stable text: sorted as declared, no date, no version."""
         return self._json_text
+
+    def format_file(self) -> str:
+        """Returns the text of `manifest.json`: the same entries, a parameter or function a line."""
+        return format_json(json.loads(self._json_text)) + "\n"
 
     @cached_property
     def _json_text(self) -> str:
