@@ -281,10 +281,8 @@ def build_export_parameters(
     """
     robot = get_robot(robot_or_model)
     if isinstance(robot_or_model, Robot):
-        fit, (machine, beta) = (
-            None,
-            _collect_stated_values(robot_or_model, bool(original.total_inertia)),
-        )
+        fit = None
+        (machine, beta) = _collect_stated_values(robot_or_model, bool(original.total_inertia))
         nominal_values = collect_nominal_values(robot)
         tens = [
             [nominal_values.get(machine.names[i]) for i in indices]
@@ -294,18 +292,14 @@ def build_export_parameters(
             return _complete_with_torques(robot, equations())
         C = np.zeros((len(beta), len(beta)))
     else:
-        machine, beta, C = (
-            define_physical_parameters(robot_or_model.spec),
-            robot_or_model.fit.beta,
-            robot_or_model.fit.covariance,
-        )
+        machine = define_physical_parameters(robot_or_model.spec)
+        beta = robot_or_model.fit.beta
+        C = robot_or_model.fit.covariance
         fit = beta, C
     before, stated, notes = build_prior(machine, robot, original, beta, C)
-    completion, released, values = (
-        compute_completion(machine.K, before, beta, C),
-        frozenset[str](),
-        collect_nominal_values(robot),
-    )
+    completion = compute_completion(machine.K, before, beta, C)
+    released = frozenset[str]()
+    values = collect_nominal_values(robot)
     if not isinstance(robot_or_model, Robot):
         if standard := robot_or_model.fit.standard:
             chi = [
@@ -350,11 +344,9 @@ def _complete_with_torques(robot: Robot, equations: Equations) -> ExportParamete
     Torques depend on K chi alone: the rest of chi is chosen so that the bodies can be built, stated
     values last of all. Rods and points, which are limits of bodies, stay what they are.
     """
-    machine, values, nothing = (
-        define_physical_parameters(equations.spec),
-        collect_nominal_values(robot),
-        Original(),
-    )
+    machine = define_physical_parameters(equations.spec)
+    values = collect_nominal_values(robot)
+    nothing = Original()
     known = np.array([values.get(name, 0.0) for name in machine.names])
     beta = machine.K @ known
     none = np.zeros((len(beta), len(beta)))
@@ -505,8 +497,7 @@ def build_prior(
             )[1]
         notes.append(
             f"link {', '.join(unknown)}: no body is stated in the robot file; what "
-            f"{_describe_undetermined(C)} of "
-            f"it is that of a capsule{basis}"
+            f"{_describe_undetermined(C)} of it is that of a capsule{basis}"
         )
     of_links = {i for indices in machine.links.values() for i in indices}
     most = np.abs(beta) + np.abs(machine.K @ mean) + np.sqrt(np.maximum(np.diag(C), 0.0))

@@ -204,8 +204,7 @@ def _build_parts(
         )
         notes.append(
             f"{', '.join(massless_links)}: no body, and {tiny:g} of the mass of all is written, "
-            f"for {refusing_programs} "
-            f"a moving link without mass{size_note}"
+            f"for {refusing_programs} a moving link without mass{size_note}"
         )
     return parts
 
@@ -263,10 +262,8 @@ def _compute_capsule_pose(capsule: Capsule) -> Pose:
 
 
 def _build_urdf(physics: ExportParameters, parts: list[Part], names: Names) -> ET.Element:
-    root, lift = (
-        _build_node("robot", name=physics.robot.name),
-        _compute_upright_axes(compute_gravity(physics.robot)),
-    )
+    root = _build_node("robot", name=physics.robot.name)
+    lift = _compute_upright_axes(compute_gravity(physics.robot))
     if not np.allclose(lift, np.eye(3), atol=1e-12):
         ends = _build_node("parent", link="world"), _build_node("child", link=names.links[BASE])
         upright = _build_origin(Pose(np.zeros(3), lift)), *ends
@@ -517,10 +514,8 @@ def export_robot(
                 f"{to}; leave out --like for a file of another format"
             )
         to, placement = source.format, assign_links(source, robot)
-        physics, notes = (
-            build_export_parameters(robot_or_model, collect_original(placement.links)),
-            list(placement.notes),
-        )
+        physics = build_export_parameters(robot_or_model, collect_original(placement.links))
+        notes = list(placement.notes)
         data, values = rewrite_file(physics, source, placement, notes)
     notes = [*physics.notes, *notes, *_find_too_small(values, to)]
     lost = find_lost_effects(physics, to, torques)

@@ -248,11 +248,9 @@ def _remove_shapes(spec: Any) -> list[str]:
         if body.name != "world" and (absent or not (stated or body.geoms)):
             for geom in body.geoms:
                 spec.delete(geom)
-            body.explicitinertial, body.mass, body.inertia = (
-                True,
-                THRESHOLDS.placeholder_inertia,
-                [THRESHOLDS.placeholder_inertia] * 3,
-            )
+            body.explicitinertial = True
+            body.mass = THRESHOLDS.placeholder_inertia
+            body.inertia = [THRESHOLDS.placeholder_inertia] * 3
     for part in [*spec.geoms, *spec.sites]:
         part.material = ""
     idle = [part for name in _LEFT_OUT.split() for part in getattr(spec, name)]

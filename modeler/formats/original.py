@@ -138,10 +138,8 @@ def _read_sdf_links(root: Element) -> dict[str, Inertial | None]:
         numbers = [float(t or (k[1] == k[2])) for t, k in zip(texts, TENSOR, strict=True)]
         body, inertial = None, find_first_child(link, "inertial")
         if inertial is not None:
-            mass, tensor = (
-                float(get_text_at(inertial, "mass") or 1.0),
-                build_symmetric_matrix(np.array(numbers)),
-            )
+            mass = float(get_text_at(inertial, "mass") or 1.0)
+            tensor = build_symmetric_matrix(np.array(numbers))
             body = Inertial(mass, np.zeros(3), tensor).express_in(_read_sdf_pose(inertial))
         links[link.attributes.get("name", "")] = body
     return links
@@ -179,10 +177,8 @@ def assign_links(source: OriginalFile, robot: Robot) -> Placement:
         )
     moved_links = {frame.row: name for name, frame in robot.frames.items() if frame.joint}
     if source.tree is None:
-        joints, notes = (
-            {robot.frames[name].joint: row for row, name in moved_links.items()},
-            list[str](),
-        )
+        joints = {robot.frames[name].joint: row for row, name in moved_links.items()}
+        notes = list[str]()
     else:
         joints = _find_joint_rows(source.tree, robot)
         _check_tree(source, source.tree, robot, on, joints)
@@ -273,11 +269,9 @@ def _locate_by_order(source: OriginalFile, tree: BodyTree, robot: Robot) -> Link
         raise _build_mismatch(
             source, robot, f"it has {len(links) - 1} moving joints, and the table {len(rows) - 1}"
         )
-    joints, at, values = (
-        _find_joint_rows(tree, robot),
-        compute_row_poses(robot, {}),
-        evaluate_variables(robot, {}),
-    )
+    joints = _find_joint_rows(tree, robot)
+    at = compute_row_poses(robot, {})
+    values = evaluate_variables(robot, {})
     body_poses = _compute_body_poses(
         tree, {name: values[f"q{row}"] for name, row in joints.items()}
     )

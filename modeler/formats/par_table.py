@@ -170,8 +170,7 @@ def find_joint_variables(frames: list[ParFrame], statements: Statements) -> dict
             here = statements.by_key[column].locate_entry(frame.number)
             raise here.make_error(
                 f'got "{frame.cells[column].source_text}"; expected the joint variable and no '
-                "other "
-                f"letter that could be it: write q{frame.number}"
+                f"other letter that could be it: write q{frame.number}"
             )
         variables |= dict.fromkeys(names, f"q{frame.number}")
     return variables
@@ -313,8 +312,7 @@ def replace_inverse_functions(
         if moving := ParFormula(call, "").names - symbols.values.keys():
             raise place.make_error(
                 f"got {format_tree(call)}, which moves with {join_names(sorted(moving))}; robot "
-                "files have "
-                f"no {name}: expected one of lengths and numbers only"
+                f"files have no {name}: expected one of lengths and numbers only"
             )
         try:
             value = INVERSE[name](*(symbols.evaluate_formula(argument) for argument in call.args))
@@ -325,8 +323,7 @@ def replace_inverse_functions(
         symbol = symbols.add_symbol("ang1", float(f"{value:.12g}"), f"rad, {format_tree(call)}")
         symbols.notes.append(
             f"{format_tree(call)} is a symbol {symbol} with the value at the lengths above: change "
-            "it "
-            "with them"
+            "it with them"
         )
         return ast.Name(symbol, ast.Load())
 
@@ -498,8 +495,7 @@ def _declare_number(
     if column in ANGLES and abs(number) > THRESHOLDS.max_par_angle:
         raise place.enter(f"{column}, entry {frame.number}").make_error(
             f"got {cell.source_text}, which is more than a turn; angles are in radians: write Pi/2 "
-            "for "
-            "90 degrees"
+            "for 90 degrees"
         )
     if abs(number) not in equal:
         unit = "rad" if column in ANGLES else "m"

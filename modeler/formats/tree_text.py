@@ -329,8 +329,7 @@ class _TreeWriter:
             joints = "actuated joints" if self.loops else "joints"
             self.symbols.notes.append(
                 f"added to the {joints}: {join_names(unstated_effects)}, of which the file says "
-                "nothing; a fit "
-                "without would be wrong"
+                "nothing; a fit without would be wrong"
             )
         lines = format_effects({k: v for k, v in rows_by_effect.items() if v}, self.driven)
         return lines + ([f"spring = [{', '.join(springs)}]"] if springs else [])

@@ -174,10 +174,8 @@ def _read_loop_closures(
     for spot in root.find_children("loop", "loop_joint", "constraint"):
         kind, links, poses = _read_loop_kind(spot), list[str](), list[Pose]()
         for side in spot.find_children(*_SIDES):
-            inside, side_origin = (
-                side.find_child("origin"),
-                spot.find_child(f"{side.element.tag}_origin"),
-            )
+            inside = side.find_child("origin")
+            side_origin = spot.find_child(f"{side.element.tag}_origin")
             origin = next((o for o in (inside, side_origin) if o.is_given), side)
             axis = spot.find_child(f"{side.element.tag}_axis")
             turn = _compute_axis_frame(
@@ -432,10 +430,8 @@ class _UrdfReader:
         inertial = link.find_child("inertial")
         if not inertial.is_given:
             return None
-        mass, tensor = (
-            inertial.require_child("mass", 'value="1"'),
-            inertial.require_child("inertia", 'ixx="0.01" ..'),
-        )
+        mass = inertial.require_child("mass", 'value="1"')
+        tensor = inertial.require_child("inertia", 'ixx="0.01" ..')
         mass.require_attribute("value", "1")
         entries = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
         printed = [
@@ -519,10 +515,8 @@ class _UrdfReader:
             if lower >= upper:
                 self._add_note("limits that leave no range are not taken: {}", name)
                 return lower, upper
-        low, high = (
-            soft.read_optional_number("soft_lower_limit"),
-            soft.read_optional_number("soft_upper_limit"),
-        )
+        low = soft.read_optional_number("soft_lower_limit")
+        high = soft.read_optional_number("soft_upper_limit")
         if low is None or high is None or (low, high) == (lower, upper):
             return lower, upper
         low = low if lower is None else max(low, lower)
@@ -586,8 +580,7 @@ def _find_first_link(
     if len(first) > 1:
         raise place.make_error(
             f"no joint leads to {len(first)} links, {summarise_names(first)}; expected one first "
-            "link: "
-            "join the others to it by fixed joints, or take them out"
+            "link: join the others to it by fixed joints, or take them out"
         )
     reached = {*first, *(joint.child for name in first for joint in _arrange_joints(joints, name))}
     for link in bodies:

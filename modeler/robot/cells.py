@@ -304,8 +304,7 @@ def read_joint_sum(
     if only and form.constant != 0.0:
         raise place.make_error(
             f"got {quote_value(expression.text)}, with the constant {form.constant:g}; expected a "
-            "sum of "
-            f"joint variables only{only}"
+            f"sum of joint variables only{only}"
         )
     return form
 
@@ -333,8 +332,7 @@ def check_size(
         if abs(value) > most:
             raise place.make_error(
                 f"got {quote_value(expression.text)}, which is {value:.4g}; expected at most "
-                f"{most:g} in "
-                "SI units: check the units, the divisors and the symbols in it"
+                f"{most:g} in SI units: check the units, the divisors and the symbols in it"
             )
 
 
@@ -362,8 +360,7 @@ def check_declared(expression: Expression, known: Mapping[str, Any], place: Toml
             advice = suggest_name(name, known) or "; declare it in [symbols] with its value"
             raise place.make_error(
                 f"got {quote_value(expression.text)}: {name} is not declared; expected numbers or "
-                "names "
-                f"among {join_names(list(known)[:12])}{advice}"
+                f"names among {join_names(list(known)[:12])}{advice}"
             )
 
 
@@ -453,8 +450,7 @@ def read_exact_angle(
         if abs(form.constant) > 4 * _QUARTER + THRESHOLDS.max_right_angle_rounding:
             raise place.make_error(
                 f"got {quote_value(expression.text)}: {form.constant:g} rad is more than a turn; "
-                "angles "
-                'are in radians, write "90 deg" or "pi/2" for 90 degrees'
+                'angles are in radians, write "90 deg" or "pi/2" for 90 degrees'
             )
         turns = round(form.constant / _QUARTER)
         if (
@@ -501,8 +497,7 @@ def read_symbols(
         if not _NAME.fullmatch(name):
             raise place.make_error(
                 f"got the name {quote_value(name)}; expected a letter, then letters, digits or _, "
-                "such "
-                "as D3"
+                "such as D3"
             )
         check_name_length(name, place)
         taken = {

@@ -49,14 +49,12 @@ def read_own_effects(
         if not _ID.fullmatch(name) or name in _WORDS:
             raise here.make_error(
                 f"got the name {quote_value(name)}; expected small letters, digits and _, such as "
-                "brake, "
-                f"and not {join_names(_WORDS)}"
+                f"brake, and not {join_names(_WORDS)}"
             )
         if effect := find_effect(name):
             raise here.make_error(
                 f"{quote_value(name)} is {effect.id} of the catalogue, which stays as it is; "
-                "choose "
-                "another name"
+                "choose another name"
             )
         taken = collect_parameter_owners((*CATALOGUE, *before, *effects)) | dict.fromkeys(
             INERTIAL, "the links"
@@ -139,8 +137,7 @@ def read_effects(
             if repeated_joints := [name for name in passive_friction.joints if name in has]:
                 raise place.enter(PASSIVE_FRICTION).make_error(
                     f"joint {quote_value(repeated_joints[0])} has {part} already, which is a part "
-                    "of it; take the "
-                    "joint out of one of them"
+                    "of it; take the joint out of one of them"
                 )
             both = {*has, *passive_friction.joints}
             uses[part] = EffectUse(part, tuple(name for name in moving if name in both))
@@ -203,8 +200,7 @@ def _check_coupled(effect: Effect, name: str, coupling: Coupling, place: TomlCel
     if effect.is_coupled and name not in coupling:
         raise place.make_error(
             f"joint {quote_value(name)} has no line in [coupling], which has "
-            f"{join_names(coupling)}; "
-            "add one, or take the joint out"
+            f"{join_names(coupling)}; add one, or take the joint out"
         )
 
 

@@ -64,8 +64,7 @@ def read_loops(place: TomlCell, joints: Sequence[Joint]) -> tuple[Loop, ...]:
         if name in names[: number - 1]:
             raise place.enter(f"row {number}").make_error(
                 f"{quote_value(name)} is the name of row {names.index(name) + 1} too; give every "
-                "loop "
-                "its own name"
+                "loop its own name"
             )
     return tuple(loops)
 
@@ -439,8 +438,7 @@ def build_motor_rows(place: TomlCell, rows: Rows) -> Rows:
         if name in taken:
             raise here.make_error(
                 f"row {quote_value(name)} of [mdh] has that name; call the motor m{name}: its "
-                "columns "
-                f"are then qm{name} and taum{name}"
+                f"columns are then qm{name} and taum{name}"
             )
         expression = here.read_expression()
         joints = [
@@ -451,8 +449,7 @@ def build_motor_rows(place: TomlCell, rows: Rows) -> Rows:
         if not joints:
             raise here.make_error(
                 f"got {quote_value(expression.text)}, without a joint variable; expected the "
-                "position of "
-                f"the motor as a sum of {join_names(f'q{row}' for row in taken)}"
+                f"position of the motor as a sum of {join_names(f'q{row}' for row in taken)}"
             )
         sliding = all(read_row_kind(*joint) is JointKind.PRISMATIC for joint in joints)
         kind = JointKind.PRISMATIC if sliding else JointKind.REVOLUTE
@@ -651,14 +648,12 @@ def read_shared(
                 if member not in known:
                     raise place.make_error(
                         f"{quote_value(members[0])} has no counterpart {quote_value(member)}; "
-                        "share what all "
-                        "legs have"
+                        "share what all legs have"
                     )
             if shared_name in known:
                 raise place.make_error(
                     f"{quote_value(shared_name)} would be shared by the legs and is a parameter "
-                    "already; rename "
-                    "that row"
+                    "already; rename that row"
                 )
             shared_parameters[shared_name] = SharedParameter(shared_name, members)
     return tuple(shared_parameters.values())

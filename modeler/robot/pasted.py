@@ -128,8 +128,7 @@ def parse_pasted_table(text: str, convention: str = "") -> PastedTable:
             raise RobotError(
                 f"pasted table: got {len(body[0])} columns without headings; expected "
                 f"{join_names(map(str, sorted(_GUESSED[convention])))} of them, or a first line "
-                "with "
-                f"headings among {join_names(CONVENTIONS[convention].values())}"
+                f"with headings among {join_names(CONVENTIONS[convention].values())}"
             )
         notes.append(f"no headings: taken as {' '.join(columns)}")
     if convention == "khalil":

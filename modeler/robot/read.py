@@ -248,10 +248,8 @@ def _read_tables(
         "has them)"
     )
     parameters, uncertainty = read_parameters(locate_section("parameters"), known, names)
-    readings, drive_gains = (
-        [*robot.readings],
-        read_drive_gains(locate_section("drive_gains"), moving),
-    )
+    readings = [*robot.readings]
+    drive_gains = read_drive_gains(locate_section("drive_gains"), moving)
     drive_gains, drives = read_drives(locate_section("drives"), moving, drive_gains, readings)
     robot = dataclasses.replace(
         robot,
@@ -299,8 +297,7 @@ def _describe_missing_file(path: Path) -> str:
         )
     return (
         f"{quote_value(str(path))} is neither a file nor a built-in "
-        f"robot{suggest_name(str(path), names)}; "
-        f"built-in are {join_names(names)}"
+        f"robot{suggest_name(str(path), names)}; built-in are {join_names(names)}"
     )
 
 
@@ -413,8 +410,7 @@ def _read_priority(place: TomlCell, known: tuple[str, ...], robot: Robot) -> tup
         if not any(fnmatch.fnmatchcase(name, pattern) for name in possible):
             raise place.make_error(
                 f"{quote_value(pattern)} matches no parameter{suggest_name(pattern, known)}; "
-                "expected names or "
-                f"patterns of {join_names(known[:12])} ..."
+                f"expected names or patterns of {join_names(known[:12])} ..."
             )
     return tuple(p for p in patterns if any(fnmatch.fnmatchcase(name, p) for name in known))
 

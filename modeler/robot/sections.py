@@ -29,8 +29,7 @@ def find_joint(name: Any, moving: Mapping[str, Joint], place: TomlCell) -> Joint
     if not isinstance(key, str) or key not in moving:
         raise place.make_error(
             f"there is no moving joint {quote_value(name)}{suggest_name(key, moving)}; expected "
-            "one of "
-            f"{join_names(moving)}"
+            f"one of {join_names(moving)}"
         )
     return moving[key]
 
@@ -510,8 +509,7 @@ def read_tool(place: TomlCell, robot: Robot, symbols: Mapping[str, float]) -> Li
         if len(ends) != 1:
             raise place.make_error(
                 f"the robot has {len(ends)} ends, {join_names(ends)}; say which row carries the "
-                "tool, "
-                f'as row = "{ends[-1]}"'
+                f'tool, as row = "{ends[-1]}"'
             )
         (row,) = ends
     rows = [joint.name for joint in robot.joints]

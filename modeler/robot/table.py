@@ -132,8 +132,7 @@ def read_khalil_columns(place: TomlCell, convention: str) -> list[str]:
                 )
             raise place.make_error(
                 f"entry {number} is {quote_value(column)}{suggest_name(column, ours)}; expected "
-                "names among "
-                f"{join_names(ours)}{advice}"
+                f"names among {join_names(ours)}{advice}"
             )
         if column in columns[: number - 1]:
             raise place.make_error(f"{quote_value(column)} stands twice; remove one and its cells")
@@ -428,10 +427,8 @@ def check_units(robot: Robot, values: Mapping[str, float], place: TomlCell) -> l
     longest, notes = THRESHOLDS.max_silent_length, list[str]()
     for joint in robot.joints:
         for column in GEOMETRY:
-            cell, at = (
-                getattr(joint, column),
-                place.enter(locate_written_cell(robot, joint, column)),
-            )
+            cell = getattr(joint, column)
+            at = place.enter(locate_written_cell(robot, joint, column))
             check_unit(cell, units, "rad" if column in ANGLES else "m", at)
             size = abs(cell.evaluate({joint.variable: 0.0, **values}))
             if column not in ANGLES and size > longest and "m" not in cell.infer_units(units):
@@ -572,8 +569,7 @@ def _read_cell(
         if name != row_variable and name.startswith("q") and name[1:] in kinds:
             raise place.make_error(
                 f"{got}, which uses the variable {name} of another row; expected {row_variable} "
-                "and "
-                "constants, or, where the joint follows others, a sum of their variables in "
+                "and constants, or, where the joint follows others, a sum of their variables in "
                 f"column {' or '.join(map(where.get_letter, [home] if home else HOME.values()))} "
                 f"without {row_variable}"
             )
@@ -582,8 +578,7 @@ def _read_cell(
         if row_variable not in expression.names:
             raise place.make_error(
                 f"{got}, without the joint variable; expected {row_variable}, the variable of this "
-                "row, as "
-                f"in {quote_value(example)}; a row that does not move has sigma 2"
+                f"row, as in {quote_value(example)}; a row that does not move has sigma 2"
             )
     check_declared(expression, {**symbols, row_variable: 0.0} if column == home else symbols, place)
     if column == home:
