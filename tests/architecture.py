@@ -41,7 +41,7 @@ PACKAGES: dict[str, set[str]] = {
     "core": {"numpy", "mpmath", "pandas", "distributed"},
     "numerics": {"numpy", "scipy", "clarabel"},
     "effects": set(),
-    "robot": set(),
+    "robot": {"tomlkit"},
     "derivation": {"numpy", "sympy", "casadi", "flint"},
     "formulas": {"numpy", "sympy"},
     "codegen": {"numpy", "sympy", "jinja2", "casadi"},
@@ -76,6 +76,7 @@ ONLY_IN = {
     "distributed": ("core/jobs.py",),
     "sklearn": ("api/regressor.py",),
     "mujoco": ("formats/mjcf.py",),
+    "tomlkit": ("robot/edit.py", "robot/robot_text.py"),
     "matplotlib": ("views/", "excitation/result.py"),
 }
 

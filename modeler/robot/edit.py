@@ -1,15 +1,13 @@
 """Edits of a robot file: effects, parameters, limits, home, and nothing else in it."""
 
-import json
 import math
-import re
 import tomllib
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import RobotError
@@ -30,6 +28,10 @@ from modeler.robot.read import parse_robot_text, parse_toml_document, read_file_
 from modeler.robot.robot import INERTIAL, Robot
 from modeler.robot.thresholds import THRESHOLDS
 
+if TYPE_CHECKING:
+    from tomlkit import TOMLDocument
+    from tomlkit.items import Item
+
 Effects = Mapping[str, str | list]
 """Effect id or alias -> "all", the names of the joints that have it, or tables with shapes."""
 
@@ -47,7 +49,7 @@ def insert_effect(
         everyone: the joints that "all" means.
 
     Raises:
-        RobotError: see `replace_effects`.
+        RobotError: the joint has the effect already.
     """
     effects: dict[str, str | list] = dict(tomllib.loads(text).get("effects", {}))
     known = find_effect(effect, _read_catalogue(text))
@@ -81,8 +83,7 @@ def insert_own_effect(text: str, name: str, definition: Mapping[str, Any]) -> st
     """
     if name in tomllib.loads(text).get("own_effects", {}):
         raise RobotError(f"[own_effects.{name}]: the robot has it already; choose another name")
-    lines = [f"{format_toml_key(key)} = {format_toml(value)}" for key, value in definition.items()]
-    return _append_table([text], f"[own_effects.{format_toml_key(name)}]", *lines)
+    return _append_table(text, f"[own_effects.{format_toml_key(name)}]", definition)
 
 
 def _read_catalogue(text: str) -> tuple[Effect, ...]:
@@ -93,11 +94,7 @@ def _read_catalogue(text: str) -> tuple[Effect, ...]:
 
 def replace_parameters(text: str, values: Mapping[str, float]) -> str:
     """Returns robot file with these nominal values, and others only for what they leave open."""
-    before = dict(tomllib.loads(text).get("parameters", {}))
-    uncertainty = before.pop("uncertainty", None)
-    if uncertainty is not None:
-        text = _replace_numbers(text, "parameters.uncertainty", uncertainty)
-    return _replace_numbers(text, "parameters", {**before, **values})
+    return _write_entries(text, "parameters", values)
 
 
 def replace_fitted_values(text: str, values: Mapping[str, float]) -> str:
@@ -114,114 +111,37 @@ def replace_fitted_values(text: str, values: Mapping[str, float]) -> str:
 
 def replace_reference(text: str, values: Mapping[str, float]) -> str:
     """Returns the robot file with another table [reference]."""
-    return _replace_numbers(text, "reference", values)
+    return _write_table(text, "reference", values)
 
 
 def replace_drive_gains(text: str, gains: Mapping[str, float]) -> str:
-    """Returns the robot file with other gains, in [drives] or [drive_gains] as it has them.
-
-    Raises:
-        RobotError: the file's own table is written in a way that cannot be replaced line by line.
-    """
-    drives = tomllib.loads(text).get("drives", {})
-    known = {
-        name: drive | {"gain": gains.get(name, drive["gain"])} for name, drive in drives.items()
-    }
-    if known != drives:
-        text = _replace_table(text, "drives", known, "one joint a line")
+    """Returns the robot file with other gains, in [drives] or [drive_gains] as it has them."""
+    document = _parse_document(text)
+    drives = document.get("drives", {})
+    for name, drive in drives.items():
+        if gains.get(name, drive["gain"]) != drive["gain"]:
+            drive["gain"] = gains[name]
     others = {name: gain for name, gain in gains.items() if name not in drives}
-    if not others and "drive_gains" not in tomllib.loads(text):
-        return text
-    changed = _replace_numbers(text, "drive_gains", others)
-    return _check_change(changed, text, "drive_gains", others, "one joint a line")
+    if not others and "drive_gains" not in document:
+        return document.as_string()
+    return _write_table(document.as_string(), "drive_gains", others)
 
 
 def replace_log_table(text: str, table: Mapping[str, Any]) -> str:
-    """Returns the robot file with another table [log], where the old one stood, or at the end.
-
-    Raises:
-        RobotError: the file's own table is written in a way that cannot be replaced line by line.
-    """
-    return _replace_table(text, "log", table, "one entry a line")
-
-
-def _replace_table(text: str, name: str, table: Mapping[str, Any], how: str) -> str:
-    """The text with another table, where the old one stood, or at the end; `how` to write it."""
-    head = rf"\[\s*{name}\s*[].]"
-    old_lines = [k for k, (line, _) in enumerate(_iterate_lines(text)) if re.match(head, line)]
-    lines = text.rstrip("\n").split("\n")
-    new = [
-        f"[{name}]",
-        *(f"{format_toml_key(key)} = {format_toml(entry)}" for key, entry in table.items()),
-        "",
-    ]
-    other_lines = [line for k, line in enumerate(lines) if k not in old_lines]
-    at = old_lines[0] if old_lines else len(other_lines)
-    before = other_lines[:at] if old_lines else [*other_lines, ""]
-    changed = "\n".join([*before, *new, *other_lines[at:]]).rstrip("\n") + "\n"
-    return _check_change(changed, text, name, dict(table), how)
-
-
-def _check_change(changed: str, text: str, table: str, entries: dict[str, Any], how: str) -> str:
-    """The changed text, if all that differs is what that table says."""
-    if _parse_document(changed) != {**tomllib.loads(text), table: entries}:
-        raise RobotError(
-            f"the [{table}] table cannot be replaced; write it as a table of its own, {how}"
-        )
-    return changed
-
-
-def _replace_numbers(text: str, table: str, values: Mapping[str, float]) -> str:
-    """The text with another table of numbers, at its end."""
-    other_lines = [line for head, line in _iterate_lines(text) if head != f"[{table}]"]
-    return _append_table(
-        other_lines, f"[{table}]", *(f'"{name}" = {value!r}' for name, value in values.items())
-    )
-
-
-def _append_table(lines: Sequence[str], *table: str) -> str:
-    """The text with a table after one blank line."""
-    return "\n".join(["\n".join(lines).rstrip(), "", *table]) + "\n"
-
-
-def _iterate_lines(text: str) -> Iterator[tuple[str, str]]:
-    """Every line with the head of the table that it belongs to: its own, or the last before it."""
-    head = ""
-    for line in text.splitlines():
-        if line.startswith("["):
-            head = line.split("#")[0].strip()
-        yield head, line
-
-
-def _parse_document(text: str) -> dict[str, Any] | None:
-    """What the text says; None if it is no TOML any more."""
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError:
-        return None
+    """Returns the robot file with another table [log], where the old one stood, or at the end."""
+    return _write_table(text, "log", table)
 
 
 def replace_gravity(text: str, gravity: Sequence[float]) -> str:
-    """Returns the robot file with another gravity, m/s^2 in frame 0.
-
-    Raises:
-        RobotError: the file's own entry does not stand on one line.
-    """
-    entry = f"gravity = [{', '.join(repr(float(f'{g:.8g}')) for g in gravity)}]"
-    changed, count = re.subn(r"(?m)^gravity\s*=\s*\[[^\]\n]*\]", entry, text, count=1)
-    if count != 1:
-        raise RobotError("gravity cannot be replaced; write it on one line, as in [0, 0, -9.81]")
-    return changed
+    """Returns the robot file with another gravity, m/s^2 in frame 0."""
+    document = _parse_document(text)
+    _replace_entry(document, "gravity", [float(f"{g:.8g}") for g in gravity])
+    return document.as_string()
 
 
 def insert_coupling(text: str, joint: str, speed: str) -> str:
     """Returns the robot file with one motor more that turns with several joints."""
-    lines = text.splitlines()
-    entry = f'"{joint}" = "{speed}"'
-    for place, line in enumerate(lines):
-        if line.split("#")[0].strip() == "[coupling]":
-            return "\n".join([*lines[: place + 1], entry, *lines[place + 1 :]]) + "\n"
-    return _append_table(lines, "[coupling]", entry)
+    return _write_entries(text, "coupling", {joint: speed})
 
 
 def replace_effects(text: str, effects: Effects) -> str:
@@ -229,36 +149,14 @@ def replace_effects(text: str, effects: Effects) -> str:
 
     Nominal values of effects that are gone leave `[parameters]` with them: they would be values
     of parameters that the robot does not have.
-
-    Raises:
-        RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
     catalogue, motors = _read_catalogue(text), tomllib.loads(text).get("motors", {})
-
-    def is_retained(parameter: str) -> bool:
-        return _has_owner(parameter, effects, catalogue, motors)
-
-    def strip_effects(document: dict[str, Any] | None) -> dict[str, Any] | None:
-        """Returns the document without its effects and the values of effects that are gone."""
-        if document is None:
-            return None
-        values = {n: v for n, v in document.get("parameters", {}).items() if is_retained(n)}
-        return {**document, "effects": None, "parameters": values}
-
-    remaining_lines = []
-    for head, line in _iterate_lines(text):
-        entry = re.match(r"\s*[\"']?([\w{}]+)[\"']?\s*=", line)
-        is_removed = head == "[parameters]" and entry is not None and not is_retained(entry[1])
-        if head != "[effects]" and not is_removed:
-            remaining_lines.append(line)
-    lines = ["[effects]", *(f"{name} = {format_toml(joints)}" for name, joints in effects.items())]
-    changed = _append_table(remaining_lines, *lines)
-    if strip_effects(tomllib.loads(text)) != strip_effects(_parse_document(changed)):
-        raise RobotError(
-            "the [effects] table cannot be replaced; write it as a table of its own, one effect a "
-            "line, each with its joints on the same line"
-        )
-    return changed
+    document = _parse_document(text)
+    parameters = _find_table(document, "parameters")
+    for name in list(parameters or ()):
+        if not _has_owner(name, effects, catalogue, motors):
+            del parameters[name]
+    return _write_table(document.as_string(), "effects", effects)
 
 
 def replace_robot_effects(
@@ -322,9 +220,6 @@ def set_joint_effect(
         joint: name.
         is_present: True: it has it.
         everyone: the joints that "all" means.
-
-    Raises:
-        RobotError: see `replace_effects`.
     """
     effects: dict[str, Any] = dict(_read_expanded_table(text, "effects"))
     known = find_effect(effect, _read_catalogue(text))
@@ -350,15 +245,12 @@ def replace_limits(text: str, joint: str, cells: Sequence[str]) -> str:
         text: of the file.
         joint: name.
         cells: lower, upper, speed, acceleration, as a robot file may write them.
-
-    Raises:
-        RobotError: the file's own table is written in a way that cannot be replaced line by line.
     """
     limits = dict(_read_expanded_table(text, "limits"))
     limits[joint] = [_parse_cell(cell) for cell in cells]
     if not any(cell.strip() for cell in cells):
         del limits[joint]
-    return _replace_table(text, "limits", limits, "one joint a line")
+    return _write_table(text, "limits", limits)
 
 
 def replace_symbol(text: str, name: str, value: str) -> str:
@@ -372,17 +264,12 @@ def replace_symbol(text: str, name: str, value: str) -> str:
     Raises:
         RobotError: [symbols] has no line of that letter.
     """
-    lines = text.splitlines()
-    for place, (head, line) in enumerate(_iterate_lines(text)):
-        entry = _ENTRY.fullmatch(line)
-        if head == "[symbols]" and entry is not None and entry["name"].strip("\"'") == name:
-            start = f"{entry['key']}{format_toml(_parse_cell(value))}"
-            comment = entry["rest"].lstrip()
-            lines[place] = f"{start.ljust(len(line) - len(comment))}{comment}".rstrip()
-            if comment and not lines[place].startswith(f"{start} "):
-                lines[place] = f"{start} {comment}"
-            return "\n".join(lines) + "\n"
-    raise RobotError(f"[symbols], {name}: its line is not found; edit the file as text")
+    document = _parse_document(text)
+    symbols = _find_table(document, "symbols")
+    if symbols is None or name not in symbols:
+        raise RobotError(f"[symbols], {name}: its line is not found; edit the file as text")
+    _replace_entry(symbols, name, _parse_cell(value))
+    return document.as_string()
 
 
 def read_symbol_texts(text: str) -> dict[str, str]:
@@ -416,17 +303,6 @@ def _parse_cell(text: str) -> str | float:
         return plain
 
 
-# Writing `[home]` into a robot file, and changing nothing else in it.
-
-
-_HEADER = re.compile(r"\s*\[\s*(?:[\w.-]+|\"[^\"]*\")\s*\]\s*(?:#.*)?")
-_ENTRY = re.compile(
-    r"(?P<key>\s*(?P<name>[\w.-]+|\"[^\"]*\"|'[^']*')\s*=\s*)"
-    r"(?P<value>\"[^\"]*\"|'[^']*'|[^#\s\"']+)(?P<rest>\s*(?:#.*)?)"
-)
-_WHERE = TomlCell("robot file").enter("[home]")
-
-
 def replace_home(text: str, stated: Mapping[str, float], home: Mapping[str, float]) -> str:
     """Returns robot file with that `[home]`; comments, and values that stay, as they were written.
 
@@ -434,121 +310,119 @@ def replace_home(text: str, stated: Mapping[str, float], home: Mapping[str, floa
         text: of the file.
         stated: what its [home] says now, by row.
         home: what it is to say, by row.
-
-    Raises:
-        RobotError: the file's own [home] is written in a way that cannot be replaced line by line.
     """
-    legs = read_leg_names(_WHERE.with_value(tomllib.loads(text).get("legs")))
-    for lines in _generate_home_edits(text.splitlines(), stated, home, legs):
-        changed = "\n".join(lines) + "\n"
-        if _is_home_stated(changed, text, home):
-            return changed
-    raise RobotError(
-        "[home] cannot be replaced; write it as a table of its own, one joint a line, such as "
-        'q2 = "-pi/2"'
-    )
+    document, missing = _parse_document(text), dict(home)
+    legs = read_leg_names(TomlCell("robot file", "[home]", document.get("legs")))
+    table = _find_table(document, "home")
+    for key in list(table or ()):
+        keys = [key.replace(MARK, leg) for leg in legs] if MARK in key else [key]
+        values = {n: missing.pop(n) for k in keys if (n := k.removeprefix("q")) in missing}
+        if all(
+            abs(stated.get(n, math.inf) - x) < THRESHOLDS.max_home_change for n, x in values.items()
+        ):
+            continue
+        entries = {_express_angle(value) for value in values.values()}
+        if len(values) == len(keys) and len(entries) == 1:
+            _replace_entry(table, key, entries.pop())
+        else:  # legs that differ
+            del table[key]
+            missing |= values
+    lacking = {f"q{name}": _express_angle(value) for name, value in missing.items()}
+    return _write_entries(document.as_string(), "home", lacking)
 
 
 def format_home_lines(home: Mapping[str, float]) -> list[str]:
     """Returns `q2 = -1.2` for every row."""
-    return [
-        f"{format_toml_key(f'q{name}')} = {_format_number(value)}" for name, value in home.items()
-    ]
+    return _format_entries({f"q{name}": _express_angle(value) for name, value in home.items()})
 
 
-def _generate_home_edits(
-    lines: Sequence[str],
-    stated: Mapping[str, float],
-    home: Mapping[str, float],
-    legs: Sequence[str],
-) -> Iterator[list[str]]:
-    """The lines as they are to be; where the first do not say so, the next may.
+def _express_angle(value: float) -> float | str:
+    """Returns a multiple of pi/6 or pi/4 as text, another angle or length as a short number."""
+    whole = round(value / (math.pi / 12))
+    is_multiple = abs(value - whole * math.pi / 12) < THRESHOLDS.max_home_change
+    if whole and (whole % 2 == 0 or whole % 3 == 0) and is_multiple:
+        return format_pi_multiple(Fraction(whole, 12))
+    return float(f"{value:.12g}") + 0.0
 
-    What looks like the head of a table may stand in a text.
+
+# Tables in the text of a file: what does not change stays as it was written.
+
+
+def _parse_document(text: str) -> "TOMLDocument":
+    import tomlkit  # 0.05 s, for edits only
+
+    return tomlkit.parse(text)
+
+
+def _make_item(entry: Any) -> "Item":
+    import tomlkit
+
+    return tomlkit.value(format_toml(entry))
+
+
+def _find_table(document: "TOMLDocument", name: str) -> Any:
+    """Returns the table with that head, without tables in it that have heads of their own.
+
+    Raises:
+        RobotError: its entries are dotted keys, `home.q2 = 0.1`.
     """
-    heads = [i for i, line in enumerate(lines) if _HEADER.fullmatch(line)]
-    names = {i: lines[i].split("#")[0].strip(" []\t\"'") for i in heads}
-
-    def find_table_span(name: str) -> tuple[int, int] | None:
-        """Returns where the first table of that name begins and where the next does, or None."""
-        begin = next((i for i in heads if names[i] == name), None)
-        if begin is None:
-            return None
-        return begin, next((i for i in heads if i > begin), len(lines))
-
-    if table_span := find_table_span("home"):
-        begin, end = table_span
-        while end > begin + 1 and (not lines[end - 1].strip() or _is_comment(lines[end - 1])):
-            end -= 1  # blank lines and comments after the entries belong to the next table
-        body = _edit_home_entries(lines[begin + 1 : end], stated, home, legs)
-        yield [*lines[: begin + 1], *body, *lines[end:]]
-    table = ["[home]", *format_home_lines(home), ""]
-    if table_span := find_table_span("loops"):
-        begin, end = table_span
-        while end > begin and _is_comment(lines[end - 1]):
-            end -= 1  # a comment above a table belongs to it
-        gap = [] if not lines[end - 1].strip() else [""]
-        yield [*lines[:end], *gap, *table, *lines[end:]]
-    yield [*lines, "", *table[:-1]]
+    for key, item in document.body:
+        if key is not None and key.key == name:
+            if key.is_dotted():
+                raise RobotError(
+                    f"the dotted keys of {name} cannot be replaced; write them as a table [{name}]"
+                )
+            if not getattr(item, "is_super_table", bool)():
+                return item
+    return None
 
 
-def _is_comment(line: str) -> bool:
-    return line.lstrip().startswith("#")
+def _replace_entry(table: Any, key: str, entry: Any) -> None:
+    """Puts another entry into its line; a comment stays in its column where there is room."""
+    before, item = table[key], _make_item(entry)
+    width = len(before.as_string()) + len(before.trivia.comment_ws)
+    table[key] = item
+    if item.trivia.comment:
+        item.trivia.comment_ws = " " * max(1, width - len(item.as_string()))
 
 
-def _edit_home_entries(
-    lines: Sequence[str],
-    stated: Mapping[str, float],
-    home: Mapping[str, float],
-    legs: Sequence[str],
-) -> list[str]:
-    """The entries of the table: changed in place, then those that it lacks."""
-    left, body = dict(home), list[str]()
-    for line in lines:
-        entry = _ENTRY.fullmatch(line)
-        if entry is None:
-            body.append(line)
-            continue
-        pattern = entry["name"].strip("\"'")
-        filled = [pattern.replace(MARK, leg) for leg in legs] if MARK in pattern else [pattern]
-        names = [name.removeprefix("q") for name in filled]
-        values = {name: left.pop(name) for name in names if name in left}
-        if all(
-            abs(stated.get(name, math.inf) - value) < THRESHOLDS.max_home_change
-            for name, value in values.items()
-        ):
-            body.append(line)
-        elif len(values) == len(names) and len({_format_number(v) for v in values.values()}) == 1:
-            body.append(entry["key"] + _format_number(values[names[0]]) + entry["rest"])
-        else:
-            first, *others = format_home_lines(values)
-            body += [first + entry["rest"], *others]
-    return body + format_home_lines(left)
+def _write_table(text: str, name: str, entries: Mapping[str, Any]) -> str:
+    """Returns the text with these entries of a table and no others."""
+    document = _parse_document(text)
+    table = _find_table(document, name)
+    for key in [key for key in table or () if key not in entries]:
+        del table[key]
+    return _write_entries(document.as_string(), name, entries)
 
 
-def _format_number(value: float) -> str:
-    """As short as it may be; multiples of pi/6 and pi/4 as such."""
-    twelfths = value / (math.pi / 12)
-    whole = round(twelfths)
-    if (
-        whole
-        and (whole % 2 == 0 or whole % 3 == 0)
-        and abs(value - whole * math.pi / 12) < THRESHOLDS.max_home_change
-    ):
-        return json.dumps(format_pi_multiple(Fraction(whole, 12)))
-    return repr(float(f"{value:.12g}") + 0.0)
+def _write_entries(text: str, name: str, entries: Mapping[str, Any]) -> str:
+    """Returns the text with these entries of a table; it is added where there is none."""
+    document = _parse_document(text)
+    table = _find_table(document, name)
+    if table is None:
+        return _append_table(text, f"[{name}]", entries)
+    for key in [key for key in entries if key in table and table[key] != entries[key]]:
+        _replace_entry(table, key, entries[key])
+    new, body = [key for key in entries if key not in table], table.value.body
+    end = next(
+        (k for k, (_, item) in enumerate(body) if hasattr(item, "is_super_table")), len(body)
+    )
+    while end and body[end - 1][0] is None:  # blank lines and comments belong to the next table
+        end -= 1
+    body[end:], rest = [], body[end:]
+    for key in new:
+        table.append(key, _make_item(entries[key]))
+    body += rest
+    return document.as_string()
 
 
-def _is_home_stated(changed: str, text: str, home: Mapping[str, float]) -> bool:
-    """True if the changed text states that home, and else what the text states."""
-    try:
-        after, before = tomllib.loads(changed), tomllib.loads(text)
-        stated = expand_legs(after, _WHERE).get("home", {})
-    except (tomllib.TOMLDecodeError, RobotError):
-        return False
-    others = [{k: v for k, v in document.items() if k != "home"} for document in (after, before)]
-    same = json.dumps(others[0], default=str) == json.dumps(others[1], default=str)
-    return same and {f"q{name}" for name in home} <= stated.keys()
+def _append_table(text: str, head: str, entries: Mapping[str, Any]) -> str:
+    """Returns the text with a table after one blank line."""
+    return "\n".join([text.rstrip(), "", head, *_format_entries(entries)]) + "\n"
+
+
+def _format_entries(entries: Mapping[str, Any]) -> list[str]:
+    return [f"{format_toml_key(key)} = {format_toml(entry)}" for key, entry in entries.items()]
 
 
 # Effects of robot files that go from one robot to the next: each in a file, read by the folder.

@@ -1,14 +1,17 @@
 """A robot file made of another program's: its text, and what had to be decided or left out."""
 
 import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import TYPE_CHECKING, Any
 
 from modeler.core.errors import RobotError
 from modeler.robot.mechanism import MARK
 from modeler.robot.table import GEOMETRY
+
+if TYPE_CHECKING:
+    from tomlkit import TOMLDocument
+    from tomlkit.items import Array, Item
 
 
 @dataclass(frozen=True)
@@ -179,26 +182,10 @@ def join_lines(parts: Sequence[str]) -> str:
 # The cells of `[mdh]` where they stand in the text of a robot file, to change one and no more.
 
 
-_Entry = TypeVar("_Entry")
 _NAMES = (("j", "parent"), ("j", "a"))
 """Columns of names, which stand in quotes: of others' tables, of Khalil's."""
-_HEAD = re.compile(r"^[ \t]*\[[ \t]*mdh[ \t]*\]", re.MULTILINE)
-_KEY = re.compile(r"^[ \t]*(columns|rows)[ \t]*=[ \t]*(?=\[)", re.MULTILINE)
-_NEXT = re.compile(r"^[ \t]*\[[ \t]*[\w.\"'-]+[ \t]*\][ \t]*(?:#.*)?$", re.MULTILINE)
-_TOKEN = re.compile(
-    r"(?P<skip>#[^\n]*|\s+)|(?P<open>\[)|(?P<close>\])|(?P<comma>,)"
-    r"|(?P<cell>\"(?:[^\"\\\n]|\\.)*\"|'[^'\n]*'|[^\s,\[\]#\"']+)"
-)
-
-
-@dataclass
-class _Array:
-    """A TOML array: where it stands, its arrays, and where its other entries stand."""
-
-    start: int
-    end: int = 0
-    arrays: "list[_Array]" = field(default_factory=list)
-    cells: list[tuple[int, int]] = field(default_factory=list)
+_HERE = "\N{WHITE SQUARE}"
+"""Stands for a cell while its place in the text is looked for."""
 
 
 @dataclass(frozen=True)
@@ -216,15 +203,16 @@ class TableText:
 
 def find_table_text(text: str) -> TableText | None:
     """Returns the cells of the table; None where the text has none that can be found."""
-    arrays = _find_arrays(text)
-    if arrays is None:
+    try:
+        _, columns, rows = _parse_table(text)
+    except RobotError:
         return None
-    columns, rows = arrays
+    return TableText(_format_cells(columns), tuple(map(_format_cells, rows)))
 
-    def extract_cells(array: _Array) -> tuple[str, ...]:
-        return tuple(_strip_quotes(text[start:end]) for start, end in array.cells)
 
-    return TableText(extract_cells(columns), tuple(map(extract_cells, rows.arrays)))
+def _format_cells(cells: "Array") -> tuple[str, ...]:
+    """Returns cells as they are written, without quotes."""
+    return tuple(str(cell) if isinstance(cell, str) else cell.as_string() for cell in cells)
 
 
 def replace_cell(text: str, row: int, column: int, cell: str) -> str:
@@ -239,19 +227,17 @@ def replace_cell(text: str, row: int, column: int, cell: str) -> str:
     Raises:
         RobotError: there is no such cell, or it cannot be replaced.
     """
-    columns, rows = _require_arrays(text)
-    array = columns if row < 0 else _get_item(rows.arrays, row, "row")
-    start, end = _get_item(array.cells, column, "column")
-    name = (
-        "" if row < 0 else _strip_quotes(text[slice(*_get_item(columns.cells, column, "column"))])
-    )
+    document, columns, rows = _parse_table(text)
+    cells = columns if row < 0 else _get_item(rows, row, "row")
+    before = _get_item(cells, column, "column").as_string()
+    name = "" if row < 0 else str(_get_item(columns, column, "column"))
     new = quote_table_cell(cell, row < 0 or name in _NAMES[read_table_convention(text) == "khalil"])
-    behind = re.match(r",( *)", text[end:])
-    if behind is not None:
-        width = end - start + len(behind[1])
-        new = f"{new},{' ' * max(1, width - len(new))}"
-        end += behind.end()
-    return text[:start] + new + text[end:]
+    cells[column] = _HERE
+    head, _, rest = document.as_string().partition(f'"{_HERE}"')
+    if gap := re.match(r",( *)", rest):
+        width = len(before) + len(gap[1])
+        return f"{head}{new},{' ' * max(1, width - len(new))}{rest[gap.end() :]}"
+    return head + new + rest
 
 
 def insert_row(text: str, after: int, cells: Sequence[str]) -> str:
@@ -260,23 +246,10 @@ def insert_row(text: str, after: int, cells: Sequence[str]) -> str:
     Raises:
         RobotError: there is no such row, or no table.
     """
-    columns, rows = _require_arrays(text)
-    names = [_strip_quotes(text[slice(*span)]) for span in columns.cells]
-    name_columns = _NAMES[read_table_convention(text) == "khalil"]
-    line = ", ".join(
-        quote_table_cell(c, n in name_columns) for c, n in zip(cells, names, strict=False)
-    )
-    line = f"[{line}],"
-    place = _get_item(rows.arrays, after, "row").end
-    comma = re.match(r"[ \t]*,", text[place:])
-    head = text[:place] + ("" if comma else ",")
-    rest = text[place:]
-    line_rest = re.match(r"[^\n]*", rest)
-    assert line_rest is not None
-    # A comment behind the row stays behind it; the table may end on that line.
-    closing = len(line_rest[0]) >= rows.end - place
-    cut = (comma.end() if comma else 0) if closing else line_rest.end()
-    return f"{head}{rest[:cut]}\n          {line}{rest[cut:]}"
+    document, columns, rows = _parse_table(text)
+    _get_item(rows, after, "row")
+    rows.insert(after + 1, _build_array(_quote_cells(cells, columns, read_table_convention(text))))
+    return document.as_string()
 
 
 def remove_row(text: str, row: int) -> str:
@@ -285,15 +258,10 @@ def remove_row(text: str, row: int) -> str:
     Raises:
         RobotError: there is no such row.
     """
-    _, rows = _require_arrays(text)
-    row_array = _get_item(rows.arrays, row, "row")
-    start, end = row_array.start, row_array.end
-    behind = re.match(r"[ \t]*,?[ \t]*(?:#[^\n]*)?(?=\n)|[ \t]*,?[ \t]*", text[end:])
-    end += behind.end() if behind else 0
-    line = text.rfind("\n", 0, start)
-    if not text[line + 1 : start].strip() and text[end : end + 1] == "\n":
-        start = line
-    return text[:start] + text[end:]
+    document, _, rows = _parse_table(text)
+    _get_item(rows, row, "row")
+    del rows[row]
+    return document.as_string()
 
 
 def replace_table(
@@ -310,15 +278,19 @@ def replace_table(
     Raises:
         RobotError: there is no table.
     """
-    arrays = _require_arrays(text)
-    head = text.index("\n", _find_section(text)[0]) + 1
-    names = _NAMES[convention == "khalil"]
-    cells = [
-        [quote_table_cell(c, n in names) for c, n in zip(row, columns, strict=True)] for row in rows
-    ]
-    stated = [f'convention = "{convention}"'] if convention != "khalil" else []
-    lines = "\n".join([*stated, *format_columns_and_rows(columns, cells)]).rstrip()
-    return text[:head] + lines + text[max(array.end for array in arrays) :]
+    import tomlkit
+
+    document, _, _ = _parse_table(text)
+    cells = [_quote_cells(row, columns, convention) for row in rows]
+    table: Any = document["mdh"]
+    table.pop("convention", None)
+    stated = {"convention": convention} if convention != "khalil" else {}
+    for key, entry in {
+        **tomlkit.parse("\n".join(format_columns_and_rows(columns, cells))),
+        **stated,
+    }.items():
+        table[key] = entry
+    return document.as_string()
 
 
 def locate_error_cell(error: str, text: str) -> tuple[int, str] | None:
@@ -354,71 +326,42 @@ def locate_error_cell(error: str, text: str) -> tuple[int, str] | None:
 
 def read_table_convention(text: str) -> str:
     """Returns whose table it is, as the text has it."""
-    begin, end = _find_section(text)
-    stated = re.search(r"(?m)^[ \t]*convention[ \t]*=[ \t]*[\"'](\w+)", text[begin:end])
-    return stated[1] if stated else "khalil"
+    document, _, _ = _parse_table(text)
+    table: Any = document["mdh"]
+    return str(table.get("convention", "khalil"))
 
 
-def _find_section(text: str) -> tuple[int, int]:
-    """Where `[mdh]` begins and ends."""
-    head = _HEAD.search(text)
-    if head is None:
-        raise RobotError("the text has no table [mdh]; write one with columns and rows")
-    following = next((m.start() for m in _NEXT.finditer(text, head.end())), len(text))
-    return head.start(), following
+def _parse_table(text: str) -> "tuple[TOMLDocument, Array, Array]":
+    """Returns the document, and `columns` and `rows` of `[mdh]` in it."""
+    import tomlkit  # 0.05 s, for edits only
+    from tomlkit.items import Array
 
-
-def _find_arrays(text: str) -> tuple[_Array, _Array] | None:
-    """`columns` and `rows`."""
     try:
-        begin, end = _find_section(text)
-    except RobotError:
-        return None
-    arrays = dict[str, _Array]()
-    for key in _KEY.finditer(text, begin, end):
-        array = _parse_array(text, key.end())
-        if array is not None:
-            arrays.setdefault(key[1], array)
-    return (arrays["columns"], arrays["rows"]) if len(arrays) == 2 else None
-
-
-def _require_arrays(text: str) -> tuple[_Array, _Array]:
-    arrays = _find_arrays(text)
-    if arrays is None:
+        document = tomlkit.parse(text)
+    except ValueError:
+        raise RobotError("the text is no TOML; correct the line that its error names") from None
+    table: Any = document.get("mdh", {})
+    columns, rows = table.get("columns"), table.get("rows")
+    if not isinstance(columns, Array) or not isinstance(rows, Array):
         raise RobotError("[mdh]: columns and rows are not found; edit the file as text")
-    return arrays
+    return document, columns, rows
 
 
-def _parse_array(text: str, start: int) -> _Array | None:
-    """The array that begins there; None if it does not end."""
-    open_: list[_Array] = []
-    for token in _TOKEN.finditer(text, start):
-        if token.lastgroup == "open":
-            open_.append(_Array(token.start()))
-        elif token.lastgroup == "cell":
-            open_[-1].cells.append(token.span())
-        elif token.lastgroup == "close":
-            closed_array = open_.pop()
-            closed_array.end = token.end()
-            if not open_:
-                return closed_array
-            open_[-1].arrays.append(closed_array)
-    return None
-
-
-def _get_item(items: "Sequence[_Entry]", number: int, what: str) -> "_Entry":
+def _get_item(items: "Array", number: int, what: str) -> Any:
     if not 0 <= number < len(items):
         raise RobotError(f"[mdh]: there is no {what} {number + 1}; edit the file as text")
     return items[number]
 
 
-def _strip_quotes(cell: str) -> str:
-    if cell[:1] not in "\"'":
-        return cell
-    try:
-        return str(tomllib.loads(f"cell = {cell}")["cell"])
-    except tomllib.TOMLDecodeError:
-        return cell[1:-1]
+def _build_array(cells: Sequence[str]) -> "Item":
+    import tomlkit
+
+    return tomlkit.value(f"[{', '.join(cells)}]")
+
+
+def _quote_cells(cells: Sequence[str], columns: Sequence[str], convention: str) -> list[str]:
+    names = _NAMES[convention == "khalil"]
+    return [quote_table_cell(c, n in names) for c, n in zip(cells, columns, strict=False)]
 
 
 def quote_table_cell(cell: str, name: bool) -> str:

@@ -9,7 +9,7 @@ from scipy.optimize import least_squares as nonlinear
 
 from modeler.api import compile_model, derive, generate, load, read_currents
 from modeler.core.choices import read_builtin_robot
-from modeler.core.errors import DataError, RobotError
+from modeler.core.errors import DataError
 from modeler.estimation import Payload, check_known_quantities, describe_deviations
 from modeler.estimation.drive_gains import identify_gains, solve_mixed_tls
 from modeler.estimation.payload import find_heterogeneous_logs, separate_payload
@@ -248,9 +248,10 @@ def test_a_robot_with_loops_carries_its_load_on_its_last_moving_row():
     np.testing.assert_allclose([*found.gains.values()], [3.0, 0.2], rtol=0.01)
 
 
-def test_gains_in_one_line_are_not_replaced():
-    with pytest.raises(RobotError, match="write it as a table of its own"):
-        replace_drive_gains("drive_gains = {1 = 3}\n" + read_builtin_robot("two-link"), {"1": 2.5})
+def test_gains_in_one_line_stay_there():
+    text = read_builtin_robot("two-link")
+    changed = replace_drive_gains("drive_gains = {1 = 3}\n" + text, {"1": 2.5})
+    assert changed == "drive_gains = {1 = 2.5}\n" + text
 
 
 @pytest.mark.parametrize("stated", [True, pytest.param(False, marks=pytest.mark.rotating)])

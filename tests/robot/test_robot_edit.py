@@ -58,10 +58,16 @@ def test_values_of_coupled_motors_are_not_taken_for_those_of_joints():
     assert set(bare.parameters) == {"ZZ1", "Fv1", "M2"}
 
 
-@pytest.mark.parametrize("line", ['effects = { viscous = "all" }', 'effects.viscous = "all"'])
-def test_a_table_that_cannot_be_replaced_is_refused(line):
-    text = ARM.partition("[effects]")[0].replace("[mdh]", f"{line}\n[mdh]")
-    with pytest.raises(RobotError, match="write it as a table of its own"):
+def test_a_table_in_one_line_stays_there():
+    text = ARM.partition("[effects]")[0].replace("[mdh]", 'effects = { viscous = "all" }\n[mdh]')
+    changed = replace_effects(text, {"coulomb": "all"})
+    assert tomllib.loads(changed) == {**tomllib.loads(text), "effects": {"coulomb": "all"}}
+    assert changed.count("\n") == text.count("\n")
+
+
+def test_dotted_keys_are_refused():
+    text = ARM.partition("[effects]")[0].replace("[mdh]", 'effects.viscous = "all"\n[mdh]')
+    with pytest.raises(RobotError, match=r"write them as a table \[effects\]"):
         replace_effects(text, {"coulomb": "all"})
 
 
@@ -80,4 +86,4 @@ def test_one_blank_line_stands_between_sections():
     text = read_robot("two-link").text
     for k in range(5):
         text = replace_parameters(replace_effects(text, {"viscous": "all"}), {"Fv1": float(k + 1)})
-    assert "\n\n\n" not in text and "\n\n[parameters]\n" in text and "\n\n[effects]\n" in text
+    assert "\n\n\n" not in text and "\n\n[parameters]" in text and "\n\n[effects]" in text
