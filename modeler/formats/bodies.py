@@ -134,9 +134,8 @@ def collect_joint_terms(robot: Robot, row: str) -> dict[str, dict[str, float]]:
         if set(ratios) == {row} and relation is not None and relation.names == {f"q{motor}"}:
             c = ratios[row]
             for name, quantity in _iterate_joint_parameters(robot, motor):
-                joint_terms.setdefault(quantity, {})[name] = (
-                    abs(c) if quantity == "friction" else c * c
-                )
+                share = abs(c) if quantity == "friction" else c * c
+                joint_terms.setdefault(quantity, {})[name] = share
     return joint_terms
 
 
@@ -144,19 +143,15 @@ def _iterate_joint_parameters(robot: Robot, row: str) -> Iterator[tuple[str, str
     for effect, form, instance in robot.find_joint_effects(row):
         for column in form.columns:
             quantity = _HELD_AS.get((effect.id, column.prefix))
-            if quantity and not (
-                quantity == "stiffness" and instance.nonlinear_parameters.get("h")
-            ):
+            is_hard = instance.nonlinear_parameters.get("h")  # no spring, but a stop
+            if quantity and not (quantity == "stiffness" and is_hard):
                 yield f"{column.prefix}{row}{instance.label}", quantity
 
 
 def find_spring_rest(robot: Robot, row: str) -> float:
     """Returns where the spring of a joint is at rest."""
-    springs = [
-        i.nonlinear_parameters
-        for effect, _, i in robot.find_joint_effects(row)
-        if effect.id == "spring"
-    ]
+    effects = robot.find_joint_effects(row)
+    springs = [i.nonlinear_parameters for effect, _, i in effects if effect.id == "spring"]
     return float(springs[0].get("q0", 0.0)) if springs else 0.0
 
 
@@ -182,9 +177,8 @@ def compute_central_parameters(ten: np.ndarray, axes: np.ndarray | None = None) 
     """
     mass = ten[9]
     centre = ten[6:9] / mass if mass else 0.0 * ten[6:9]
-    about = build_symmetric_matrix(ten[:6]) - mass * (
-        centre @ centre * np.eye(3) - np.outer(centre, centre)
-    )
+    spread = centre @ centre * np.eye(3) - np.outer(centre, centre)
+    about = build_symmetric_matrix(ten[:6]) - mass * spread
     if axes is not None:
         about = axes.T @ about @ axes
     parameters = np.concatenate([[mass], centre, about[np.triu_indices(3)]])
@@ -259,9 +253,8 @@ def get_robot(robot_or_model: Robot | IdentifiedModel) -> Robot:
     """Returns the robot, or that of the model."""
     if isinstance(robot_or_model, Robot):
         return robot_or_model
-    return parse_robot_text(
-        robot_or_model.robot_text, f"model of {robot_or_model.spec.robot}, robot_text"
-    )
+    where = f"model of {robot_or_model.spec.robot}, robot_text"
+    return parse_robot_text(robot_or_model.robot_text, where)
 
 
 def build_export_parameters(
@@ -283,11 +276,8 @@ def build_export_parameters(
     if isinstance(robot_or_model, Robot):
         fit = None
         (machine, beta) = _collect_stated_values(robot_or_model, bool(original.total_inertia))
-        nominal_values = collect_nominal_values(robot)
-        tens = [
-            [nominal_values.get(machine.names[i]) for i in indices]
-            for indices in machine.links.values()
-        ]
+        values = collect_nominal_values(robot)
+        tens = [[values.get(machine.names[i]) for i in places] for places in machine.links.values()]
         if equations is not None and not original.total_inertia and not all(map(_is_body, tens)):
             return _complete_with_torques(robot, equations())
         C = np.zeros((len(beta), len(beta)))
@@ -351,10 +341,7 @@ def _complete_with_torques(robot: Robot, equations: Equations) -> ExportParamete
     beta = machine.K @ known
     none = np.zeros((len(beta), len(beta)))
     before, stated, _ = build_prior(machine, robot, nothing, beta, none)
-    size = {
-        link: _compute_sphere_scaling(before.mean[indices])
-        for link, indices in machine.links.items()
-    }
+    size = _compute_sizes(machine, before)
     thin, others, moves, notes = list[str](), dict(machine.links), np.zeros(len(known)), list[str]()
     carrying = {
         row
@@ -366,11 +353,9 @@ def _complete_with_torques(robot: Robot, equations: Equations) -> ExportParamete
         if link in carrying and not known[indices].any():
             del others[link]  # without a body, as in the C
             continue
-        smallest = (
-            compute_smallest_eigenvalue(known[indices], size[link])
-            if known[indices[9]] > 0.0
-            else -1.0
-        )
+        smallest = -1.0
+        if known[indices[9]] > 0.0:
+            smallest = compute_smallest_eigenvalue(known[indices], size[link])
         if smallest < -THRESHOLDS.min_rounded_eigenvalue:
             moves[indices] = 1.0
             continue
@@ -424,9 +409,8 @@ def _collect_stated_values(
     """
     values = collect_nominal_values(robot)
     links = [joint.name for joint in robot.moving_joints if robot.get_inertial_prefixes(joint.name)]
-    effects = [
-        (row.name, e) for row in robot.moving_joints for e in robot.find_joint_effects(row.name)
-    ]
+    rows = [joint.name for joint in robot.moving_joints]
+    effects = [(row, e) for row in rows for e in robot.find_joint_effects(row)]
     effect_parameters = [
         f"{column.prefix}{row}{instance.label}"
         for row, (_, form, instance) in effects
@@ -492,9 +476,8 @@ def build_prior(
         for link, indices in unknown.items():
             mass = values.get(f"M{link}") or density * capsule_parameters[link][9]
             mean[indices] = capsule_parameters[link] * (mass / capsule_parameters[link][9])
-            S[np.ix_(indices, indices)] = compute_body_covariance(
-                mean[indices], THRESHOLDS.capsule_deviation
-            )[1]
+            covariance = compute_body_covariance(mean[indices], THRESHOLDS.capsule_deviation)[1]
+            S[np.ix_(indices, indices)] = covariance
         notes.append(
             f"link {', '.join(unknown)}: no body is stated in the robot file; what "
             f"{_describe_undetermined(C)} of it is that of a capsule{basis}"
@@ -525,9 +508,8 @@ def _estimate_density(
     known = [link for link in machine.links if link not in unknown]
     if known:
         known_mass = sum(mean[machine.links[link][9]] for link in known)
-        return float(
-            known_mass / sum(capsule_parameters[link][9] for link in known)
-        ), ", as dense as the others"
+        known_capsules = sum(capsule_parameters[link][9] for link in known)
+        return float(known_mass / known_capsules), ", as dense as the others"
     beta, C = fit
     whole = mean.copy()
     for link, indices in unknown.items():
@@ -560,13 +542,9 @@ def _find_projection(
         DataError: nothing near the values can be built.
     """
     beta, C = fit
-    size = {
-        link: _compute_sphere_scaling(before.mean[projection])
-        for link, projection in machine.links.items()
-    }
-    first = find_violations(
-        machine, completion.chi, size, {link: np.zeros(10) for link in machine.links}
-    )
+    size = _compute_sizes(machine, before)
+    none = {link: np.zeros(10) for link in machine.links}
+    first = find_violations(machine, completion.chi, size, none)
     notes, stated = [], C
     for tolerance in (
         0.0,
@@ -627,6 +605,12 @@ def _find_nearest(
     if other is None or other.total_shift > best.total_shift + 1.0:
         return best
     return dataclasses.replace(other, root=best.root, shift_in_sigmas=0.0)
+
+
+def _compute_sizes(machine: PhysicalParameters, prior: Prior) -> dict[str, np.ndarray]:
+    """By link, (4, 4) W of the round body of its size."""
+    mean = prior.mean
+    return {link: _compute_sphere_scaling(mean[places]) for link, places in machine.links.items()}
 
 
 def _compute_sphere_scaling(ten: np.ndarray) -> np.ndarray:

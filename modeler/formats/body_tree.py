@@ -35,11 +35,8 @@ def summarise_names(names: Iterable[str]) -> str:
 
 
 def _format_remainder(count: int) -> str:
-    return (
-        f" and {count - THRESHOLDS.max_names_in_note} more"
-        if count > THRESHOLDS.max_names_in_note
-        else ""
-    )
+    most = THRESHOLDS.max_names_in_note
+    return f" and {count - most} more" if count > most else ""
 
 
 @dataclass
@@ -82,9 +79,8 @@ class Roundings:
     def describe_roundings(self) -> Iterator[str]:
         """Yields what to show of them."""
         if self.angles:
-            most = describe_rounded_angles(
-                dict(list(self.angles.items())[: THRESHOLDS.max_names_in_note])
-            )
+            first = list(self.angles.items())[: THRESHOLDS.max_names_in_note]
+            most = describe_rounded_angles(dict(first))
             yield f"{most}{_format_remainder(len(self.angles))}; --exact-decimals keeps them"
         if self.zeros:
             yield (
@@ -414,11 +410,8 @@ def _snap_to_known(vector: np.ndarray, known: np.ndarray, rounded: Roundings) ->
     digits = max(-int(Decimal(repr(float(x))).as_tuple().exponent) for x in vector)
     if digits < 3:
         return vector
-    allowed = (
-        0.51 * 10.0**-digits
-        if digits < 5
-        else max(10.0**-digits, THRESHOLDS.max_quaternion_rounding)
-    )
+    most = THRESHOLDS.max_quaternion_rounding
+    allowed = 0.51 * 10.0**-digits if digits < 5 else max(10.0**-digits, most)
     best: np.ndarray = known[np.argmax(known @ vector)]
     if np.max(np.abs(best - vector)) > allowed:
         return vector
@@ -432,9 +425,8 @@ def _build_known_rotations() -> np.ndarray:
     """(n, 4) quaternions of turns about three different axes by multiples of pi/12, both signs."""
     turns = np.zeros((3, 48, 4))
     for count, axis in itertools.product(range(48), range(3)):
-        turns[axis, count, 0], turns[axis, count, axis + 1] = compute_cosine_sine(
-            count * math.pi / 24
-        )
+        cosine, sine = compute_cosine_sine(count * math.pi / 24)
+        turns[axis, count, 0], turns[axis, count, axis + 1] = cosine, sine
     middle = [*range(7), *range(42, 48)]  # to a right angle
     return np.concatenate(
         [

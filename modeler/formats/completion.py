@@ -121,10 +121,8 @@ def find_nearest_physical(
     chi[places] = np.maximum(chi[places], 0.0)
     if find_violations(machine, chi, size, floors):
         return None
-    far = float(np.linalg.norm(z))
-    return CompletedParameters(
-        chi, completion.root, compute_distance(machine.K @ chi - beta, C), far
-    )
+    moved = compute_distance(machine.K @ chi - beta, C)
+    return CompletedParameters(chi, completion.root, moved, float(np.linalg.norm(z)))
 
 
 def find_violations(
@@ -171,7 +169,6 @@ def _decompose_covariance(V: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.nda
     size = np.sqrt(np.maximum(np.diag(V), 0.0))
     safe = np.where(size > 0.0, size, 1.0)
     values, vectors = np.linalg.eigh(V / np.outer(safe, safe))
-    is_significant = values > THRESHOLDS.min_relative_eigenvalue * max(
-        1.0, float(values.max(initial=0.0))
-    )
+    most = max(1.0, float(values.max(initial=0.0)))
+    is_significant = values > THRESHOLDS.min_relative_eigenvalue * most
     return safe, values[is_significant], vectors[:, is_significant]

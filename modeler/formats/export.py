@@ -159,9 +159,8 @@ def _build_parts(
         if body is None and row.is_moving:
             massless_links.append(names.links[row.name])
             moment = total_mass * capsules_by_row[row.name][0].radius ** 2
-            moment = float(
-                np.clip(2.0 * THRESHOLDS.min_moment_of_inertia, tiny * moment, 1e3 * tiny * moment)
-            )
+            least = THRESHOLDS.min_moment_of_inertia
+            moment = float(np.clip(2.0 * least, tiny * moment, 1e3 * tiny * moment))
             body = np.array([tiny * total_mass, 0, 0, 0, moment, 0, 0, moment, 0, moment])
         relation = robot.relations.get(row.name)
         form = None if relation is None else extract_linear_form(relation, symbols)
@@ -173,10 +172,8 @@ def _build_parts(
                 f"{robot.name}: joint {row.name} follows {', '.join(leaders)}, and {to.upper()} "
                 "lets a joint follow one; write MJCF (--to mjcf)"
             )
-        drive = {
-            q: physics.evaluate_sum(t)[0]
-            for q, t in physics.collect_drive_terms(row.name, to).items()
-        }
+        terms = physics.collect_drive_terms(row.name, to)
+        drive = {quantity: physics.evaluate_sum(sum_)[0] for quantity, sum_ in terms.items()}
         if "stiffness" in drive:
             drive["rest"] = find_spring_rest(robot, row.name)
         parts.append(
@@ -236,9 +233,8 @@ def _compute_upright_axes(gravity: np.ndarray) -> np.ndarray:
     axis = np.cross(down, [0.0, 0.0, -1.0])
     sine = float(np.linalg.norm(axis))
     if sine < 1e-12:
-        return (
-            np.eye(3) if down[2] < 0.0 else compute_axis_rotation(np.array([1.0, 0.0, 0.0]), np.pi)
-        )
+        half_turn = compute_axis_rotation(np.array([1.0, 0.0, 0.0]), np.pi)
+        return np.eye(3) if down[2] < 0.0 else half_turn
     return compute_axis_rotation(axis / sine, float(np.arctan2(sine, -down[2])))
 
 
@@ -253,9 +249,8 @@ def _collect_limits(physics: ExportParameters, row: Joint) -> dict[str, float]:
 def _compute_capsule_pose(capsule: Capsule) -> Pose:
     """The middle of a capsule, z along it."""
     middle = 0.5 * (capsule.start + capsule.end)
-    return Pose(
-        middle, _compute_upright_axes(-capsule.axis_vector).T if capsule.length else np.eye(3)
-    )
+    turn = _compute_upright_axes(-capsule.axis_vector).T if capsule.length else np.eye(3)
+    return Pose(middle, turn)
 
 
 # URDF.
@@ -276,9 +271,8 @@ def _build_urdf(physics: ExportParameters, parts: list[Part], names: Names) -> E
             tensor = _build_node("inertia", **dict(zip(TENSOR, part.body[4:], strict=True)))
             mass = _build_node("mass", value=part.body[0])
             link.append(_build_node("inertial", _build_origin(Pose(part.body[1:4])), mass, tensor))
-        link.extend(
-            shape for capsule in part.capsules if moves for shape in _build_visuals(capsule)
-        )
+        shapes = (shape for capsule in part.capsules for shape in _build_visuals(capsule))
+        link.extend(shapes if moves else ())
         limits = _collect_limits(physics, part.row) if moves else {}
         kind = "prismatic" if part.row.kind is JointKind.PRISMATIC else "revolute"
         kind = "fixed" if not moves else kind if limits else "continuous"
@@ -297,16 +291,14 @@ def _build_urdf(physics: ExportParameters, parts: list[Part], names: Names) -> E
 
 
 def _build_origin(pose: Pose) -> ET.Element:
-    return _build_node(
-        "origin", xyz=pose.position, rpy=np.array(compute_roll_pitch_yaw(pose.rotation))
-    )
+    angles = np.array(compute_roll_pitch_yaw(pose.rotation))
+    return _build_node("origin", xyz=pose.position, rpy=angles)
 
 
 def _build_visuals(capsule: Capsule) -> Iterator[ET.Element]:
     def build_visual(pose: Pose, tag: str, **sizes: float) -> ET.Element:
-        return _build_node(
-            "visual", _build_origin(pose), _build_node("geometry", _build_node(tag, **sizes))
-        )
+        geometry = _build_node("geometry", _build_node(tag, **sizes))
+        return _build_node("visual", _build_origin(pose), geometry)
 
     yield build_visual(Pose(capsule.start), "sphere", radius=capsule.radius)
     if capsule.length:
@@ -323,19 +315,16 @@ def _build_mjcf(physics: ExportParameters, parts: list[Part], names: Names) -> E
     bodies, zero = {names.links[BASE]: base}, {part.joint: part.zero for part in parts}
     equality, tendons, motors = (ET.Element(x) for x in ("equality", "tendon", "actuator"))
     for part in parts:
-        place = {
-            "pos": part.pose.position,
-            "euler": np.array(compute_roll_pitch_yaw(part.pose.rotation)),
-        }
+        angles = np.array(compute_roll_pitch_yaw(part.pose.rotation))
+        place = {"pos": part.pose.position, "euler": angles}
         bodies[part.link] = body = _build_node("body", name=part.link, **place)
         bodies[part.parent].append(body)
         if not part.row.is_moving:
             continue
         assert part.body is not None
         full = part.body[[4, 7, 9, 5, 6, 8]]
-        body.append(
-            _build_node("inertial", pos=part.body[1:4], mass=part.body[0], fullinertia=full)
-        )
+        numbers = {"pos": part.body[1:4], "mass": part.body[0], "fullinertia": full}
+        body.append(_build_node("inertial", **numbers))
         keys = {"friction": "frictionloss", "rest": "springref"}
         more: dict[str, Number] = {keys.get(q, q): x for q, x in part.drive.items()}
         if limits := robot.limits.get(part.row.name):
@@ -365,11 +354,8 @@ def _build_mjcf(physics: ExportParameters, parts: list[Part], names: Names) -> E
             equality.append(_build_node("connect", anchor=np.array([0.0, 0.0, z]), **ends))
     further = [element for element in (tendons, equality, motors) if len(element)]
     option = _build_node("option", gravity=compute_gravity(physics.robot))
-    head = (
-        _build_node("compiler", angle="radian", eulerseq="XYZ"),
-        option,
-        _build_node("worldbody", base),
-    )
+    compiler = _build_node("compiler", angle="radian", eulerseq="XYZ")
+    head = compiler, option, _build_node("worldbody", base)
     return _build_node("mujoco", *head, *further, model=robot.name)
 
 
@@ -408,21 +394,15 @@ def _build_sdf(physics: ExportParameters, parts: list[Part], names: Names) -> ET
             continue
         entries = (_build_node(k, x) for k, x in zip(TENSOR, part.body[4:], strict=True))
         mass, tensor = _build_node("mass", part.body[0]), _build_node("inertia", *entries)
-        link = _build_node(
-            "link", _build_pose_node(part.pose, relative_to=part.parent), name=part.link
-        )
+        pose = _build_pose_node(part.pose, relative_to=part.parent)
+        link = _build_node("link", pose, name=part.link)
         link.append(_build_node("inertial", _build_pose_node(Pose(part.body[1:4])), mass, tensor))
         for k, capsule in enumerate(part.capsules):
-            sizes = {"radius": capsule.radius} | (
-                {"length": capsule.length} if capsule.length else {}
-            )
-            shape = _build_node(
-                "capsule" if capsule.length else "sphere", *_build_text_nodes(sizes)
-            )
-            visual = (
-                _build_pose_node(_compute_capsule_pose(capsule)),
-                _build_node("geometry", shape),
-            )
+            kind, sizes = "sphere", {"radius": capsule.radius}
+            if capsule.length:
+                kind, sizes["length"] = "capsule", capsule.length
+            geometry = _build_node("geometry", _build_node(kind, *_build_text_nodes(sizes)))
+            visual = _build_pose_node(_compute_capsule_pose(capsule)), geometry
             link.append(_build_node("visual", *visual, name=f"capsule{k}"))
         axis = _build_node("axis", _build_node("xyz", part.axis))
         if limits := _collect_limits(physics, part.row):
@@ -544,9 +524,8 @@ def _build_values(physics: ExportParameters, to: str) -> Iterator[Value]:
             nominal = physics.get_nominal_parameters(joint.name)
             was = None if nominal is None else compute_central_parameters(nominal)
             sigma = compute_sigmas(physics, joint.name)
-            yield from build_body_values(
-                names.links[joint.name], was, compute_central_parameters(ten), sigma
-            )
+            now, sigma = compute_central_parameters(ten), compute_sigmas(physics, joint.name)
+            yield from build_body_values(names.links[joint.name], was, now, sigma)
         stated = {
             quantity: sum(c * physics.nominal[name] for name, c in terms.items())
             for quantity, terms in physics.collect_drive_terms(joint.name, to).items()

@@ -203,9 +203,8 @@ def build_capsules(robot: Robot, q: Mapping[str, float]) -> dict[str, tuple[Caps
             tuple(np.rint(end / (THRESHOLDS.min_capsule_length_share * middle))): end
             for end in ends.get(row, [])
         }.values()
-        long = [
-            end for end in far if np.linalg.norm(end) > THRESHOLDS.min_capsule_length_share * middle
-        ]
+        least = THRESHOLDS.min_capsule_length_share * middle
+        long = [end for end in far if np.linalg.norm(end) > least]
         stated = [capsule for capsule in robot.capsules if capsule.row == row]
         radius = stated[0].radius if stated else THRESHOLDS.capsule_radius_share * middle
         capsules_by_row[row] = tuple(Capsule(end, radius) for end in long or [np.zeros(3)])

@@ -173,11 +173,8 @@ def _compute_point_normal(point: np.ndarray) -> _Normal:
 def _fold_angle(angle: float) -> float:
     """The angle or its opposite direction, exact, in (-pi/2, pi/2]."""
     angle = snap_angle(angle)
-    if (
-        -math.pi / 2 + THRESHOLDS.max_parallel_angle
-        < angle
-        <= math.pi / 2 + THRESHOLDS.max_parallel_angle
-    ):
+    slack = THRESHOLDS.max_parallel_angle
+    if -math.pi / 2 + slack < angle <= math.pi / 2 + slack:
         return angle
     return snap_angle(angle + math.pi)
 
@@ -186,10 +183,8 @@ def _compute_cell_cost(number: float, angle: bool = False) -> float:
     """What a cell costs."""
     if number == 0.0:
         return 0.0
-    plain = (
-        not angle
-        or abs(number / _TWELFTH - round(number / _TWELFTH)) < THRESHOLDS.max_parallel_angle
-    )
+    apart = abs(number / _TWELFTH - round(number / _TWELFTH))
+    plain = not angle or apart < THRESHOLDS.max_parallel_angle
     return 1.0 if plain else 1.5
 
 
@@ -295,9 +290,8 @@ class _RowBuilder:
 
         def compute_shift_cost(h: float) -> float:
             others = (_compute_cell_cost(snap_length(b - h)) for b in feet)
-            return _compute_cell_cost(snap_length(h - plain[1])) + THRESHOLDS.gamma_or_b_cost * sum(
-                others
-            )
+            cost = _compute_cell_cost(snap_length(h - plain[1]))
+            return cost + THRESHOLDS.gamma_or_b_cost * sum(others)
 
         r = snap_length(min([plain[1], *feet], key=compute_shift_cost) - plain[1])
         at = placed @ _compute_screw(0.0, r + plain[1])
@@ -306,9 +300,8 @@ class _RowBuilder:
 
         def compute_turn_cost(phi: float) -> float:
             others = (_compute_cell_cost(_fold_angle(gamma - phi), angle=True) for gamma in angles)
-            return _compute_cell_cost(
-                snap_angle(phi - plain[0]), True
-            ) + THRESHOLDS.gamma_or_b_cost * sum(others)
+            cost = _compute_cell_cost(snap_angle(phi - plain[0]), True)
+            return cost + THRESHOLDS.gamma_or_b_cost * sum(others)
 
         both = [gamma + half for gamma in angles for half in (0.0, math.pi)]
         return snap_angle(min([plain[0], *both], key=compute_turn_cost) - plain[0]), r
@@ -364,10 +357,8 @@ def _collect_axes(links: Sequence[MovingLink]) -> list[_Axis]:
             carried = [i for i, link in enumerate(links) if link.parent == k]
             if len(carried) == 1:
                 other = axes[carried[0]].express_in(links[carried[0]].pose)
-                if (
-                    np.linalg.norm(np.cross(other.along, joint.axis))
-                    < THRESHOLDS.max_parallel_angle
-                ):
+                apart = np.linalg.norm(np.cross(other.along, joint.axis))
+                if apart < THRESHOLDS.max_parallel_angle:
                     through = other.through
         axes[k] = _Axis(joint.axis, through)
     return axes
@@ -395,9 +386,8 @@ def build_mdh_table(links: Sequence[MovingLink], loops: Sequence[Loop] = ()) -> 
         builder.add_row(k)
     names = tuple(f"{k}" for k in range(len(links)))
     places = tuple(frame.inverse() for frame in builder.frames)
-    ends = tuple(
-        (builder.locate_end(*one, two[0]), builder.locate_end(*two, one[0])) for one, two in loops
-    )
+    locate = builder.locate_end
+    ends = tuple((locate(*one, two[0]), locate(*two, one[0])) for one, two in loops)
     return MdhTable(tuple(builder.rows), names, places, ends)
 
 

@@ -69,14 +69,12 @@ def read_mjcf_tree(path: Path, exact_decimals: bool = False) -> BodyTree:
     """
     mujoco = _import_mujoco(path)
     sources = _read_sources(path)
-    element_notes = load_element_table("mjcf").collect_notes(
-        (str(file), root) for file, root in sources
-    )
+    texts = ((str(file), root) for file, root in sources)
+    element_notes = load_element_table("mjcf").collect_notes(texts)
     with _suppress_warnings(mujoco, path):
         spec = mujoco.MjSpec.from_file(str(path))
-        notes = _remove_irrelevant_parts(spec, path) + (
-            [] if exact_decimals else _snap_decimals(spec)
-        )
+        notes = _remove_irrelevant_parts(spec, path)
+        notes += [] if exact_decimals else _snap_decimals(spec)
         model = spec.compile()
     reading = _ModelReader(mujoco, path, model, [*notes, *element_notes])
     return reading.read_tree(sources[0][1].attributes.get("model") or path.stem)
@@ -147,9 +145,8 @@ def _read_sources(path: Path) -> list[tuple[Path, Element]]:
                 else:
                     roots.append((included_path, inner))
             if len(seen) > THRESHOLDS.max_included_files:
-                raise RobotError(
-                    f"{path}: expected at most {THRESHOLDS.max_included_files} included files"
-                )
+                most = THRESHOLDS.max_included_files
+                raise RobotError(f"{path}: expected at most {most} included files")
     return roots
 
 
@@ -176,9 +173,8 @@ def _check_counts(path: Path, root: Element) -> None:
         if element.tag == "replicate":
             count = times = times * count
         if count > most:
-            raise RobotError(
-                f"{where}: {key}: got {quote_value(stated_text)}; expected at most {most:g} in all"
-            )
+            got = f"{key}: got {quote_value(stated_text)}"
+            raise RobotError(f"{where}: {got}; expected at most {most:g} in all")
         waiting += [(child, times) for child in element.children]
 
 
@@ -359,9 +355,8 @@ class _ModelReader:
             if body == 0:
                 continue
             parent = self._bodies[model.body_parentid[body]]
-            pose = Pose(
-                np.array(model.body_pos[body]), compute_quaternion_rotation(model.body_quat[body])
-            )
+            turn = compute_quaternion_rotation(model.body_quat[body])
+            pose = Pose(np.array(model.body_pos[body]), turn)
             body_joints = np.flatnonzero(model.jnt_bodyid == body).tolist()
             if not body_joints:
                 label = _make_unique(name, taken)
@@ -462,9 +457,8 @@ class _ModelReader:
             if ratio and two not in {*self._actuated, *ties} and one in {*self._actuated, *ties}:
                 one, two, ratio, offset = two, one, 1 / ratio, -offset / ratio
             if one in ties:
-                raise self._build_error(
-                    f"{name}: {self._joints[one]} follows another joint already"
-                )
+                follower = self._joints[one]
+                raise self._build_error(f"{name}: {follower} follows another joint already")
             ties[one] = (two, ratio, offset)
         return {
             self._joints[one]: (self._joints[two] if ratio else "", ratio, offset)

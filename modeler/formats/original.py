@@ -170,11 +170,10 @@ def assign_links(source: OriginalFile, robot: Robot) -> Placement:
         on = _locate_by_frames(source, robot)
         _check_sdf(source, robot, on)
     else:
-        on = (
-            _locate_by_frames(source, robot)
-            if robot.frames
-            else _locate_by_order(source, source.tree, robot)
-        )
+        if robot.frames:
+            on = _locate_by_frames(source, robot)
+        else:
+            on = _locate_by_order(source, source.tree, robot)
     moved_links = {frame.row: name for name, frame in robot.frames.items() if frame.joint}
     if source.tree is None:
         joints = {robot.frames[name].joint: row for row, name in moved_links.items()}
@@ -210,9 +209,8 @@ def _choose_carrier(
     mass = {name: float(ten[9]) for name, ten in tens.items()}
     if moved_link in poses and (mass.get(moved_link, 0.0) > 0.0 or not any(mass.values())):
         return PlacedLinks(poses, tens, moved_link)
-    return PlacedLinks(
-        poses, tens, max(mass, key=lambda name: mass[name]) if mass else next(iter(poses))
-    )
+    heaviest = max(mass, key=lambda name: mass[name]) if mass else next(iter(poses))
+    return PlacedLinks(poses, tens, heaviest)
 
 
 def collect_original(links: Mapping[str, PlacedLinks]) -> Original:
@@ -243,9 +241,8 @@ Links = Mapping[str, tuple[str, Pose]]
 def _locate_by_frames(source: OriginalFile, robot: Robot) -> Links:
     """As [frames] of the robot file has them."""
     if not robot.frames:
-        raise _build_mismatch(
-            source, robot, "the robot file has no [frames], and SDF is matched by names"
-        )
+        what = "the robot file has no [frames], and SDF is matched by names"
+        raise _build_mismatch(source, robot, what)
     symbols = robot.evaluate_symbols()
     missing = [name for name in robot.frames if name not in source.links]
     if source.format in ("sdf", "mjcf"):  # fixed joints may be lumped there, the first be the world
@@ -272,16 +269,13 @@ def _locate_by_order(source: OriginalFile, tree: BodyTree, robot: Robot) -> Link
     joints = _find_joint_rows(tree, robot)
     at = compute_row_poses(robot, {})
     values = evaluate_variables(robot, {})
-    body_poses = _compute_body_poses(
-        tree, {name: values[f"q{row}"] for name, row in joints.items()}
-    )
+    positions = {name: values[f"q{row}"] for name, row in joints.items()}
+    body_poses = _compute_body_poses(tree, positions)
     row_of = {name: row for link, row in zip(links, rows, strict=True) for name in link.bodies}
     wrong = None
     for base in links[0].bodies.values():  # any of them may be frame 0
-        on = {
-            name: (row, at[row].inverse() @ base.inverse() @ body_poses[name])
-            for name, row in row_of.items()
-        }
+        back = {name: at[row].inverse() @ base.inverse() for name, row in row_of.items()}
+        on = {name: (row, back[name] @ body_poses[name]) for name, row in row_of.items()}
         try:
             _check_tree(source, tree, robot, on, joints)
         except DataError as error:
@@ -328,9 +322,8 @@ def _check_tree(
             (before, parent_frame), (after, child_frame) = on[joint.parent], on[joint.child]
             ours = (at[before] @ parent_frame).inverse() @ at[after] @ child_frame
             if not _is_same_pose(ours, joint.compute_pose(0.0 if fixed else values[f"q{row}"])):
-                raise _build_mismatch(
-                    source, robot, f"link {joint.child} is placed otherwise on {joint.parent}"
-                )
+                what = f"link {joint.child} is placed otherwise on {joint.parent}"
+                raise _build_mismatch(source, robot, what)
 
 
 def _check_ties(
@@ -338,9 +331,8 @@ def _check_ties(
 ) -> None:
     """Joints follow each other as in [relations], those that motors couple aside."""
     rng = np.random.default_rng(0)
-    values = evaluate_variables(
-        robot, {joint.name: rng.uniform(-1.0, 1.0) for joint in robot.moving_joints}
-    )
+    q = {joint.name: rng.uniform(-1.0, 1.0) for joint in robot.moving_joints}
+    values = evaluate_variables(robot, q)
     of_motors = {f"q{motor}" for motor in robot.motors}
     for joint in tree.joints:
         row, leader = joints.get(joint.name, ""), joints.get(joint.leader)
@@ -397,10 +389,8 @@ def _check_sdf(source: OriginalFile, robot: Robot, on: Links) -> None:
 
 def _is_same_pose(one: Pose, other: Pose) -> bool:
     apart = np.abs(one.position - other.position).max()
-    return (
-        max(float(apart), float(np.abs(one.rotation - other.rotation).max()))
-        < THRESHOLDS.max_pose_difference
-    )
+    turned = np.abs(one.rotation - other.rotation).max()
+    return max(float(apart), float(turned)) < THRESHOLDS.max_pose_difference
 
 
 def distribute_change(bodies: Mapping[str, np.ndarray], whole: np.ndarray) -> dict[str, np.ndarray]:
@@ -418,11 +408,8 @@ def distribute_change(bodies: Mapping[str, np.ndarray], whole: np.ndarray) -> di
     old = compute_pseudo_inertia(np.sum(list(bodies.values()), axis=0)) / across
     root = _compute_matrix_root(old)
     inverse = np.linalg.inv(root)
-    A = (
-        inverse
-        @ _compute_matrix_root(root @ (compute_pseudo_inertia(whole) / across) @ root)
-        @ inverse
-    )
+    middle = _compute_matrix_root(root @ (compute_pseudo_inertia(whole) / across) @ root)
+    A = inverse @ middle @ inverse
     return {
         name: extract_parameters((A @ (compute_pseudo_inertia(ten) / across) @ A.T) * across)
         for name, ten in bodies.items()

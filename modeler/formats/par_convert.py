@@ -1,5 +1,6 @@
 """A `.par` file as the text of a robot file, with what had to be decided or left out."""
 
+import itertools
 from dataclasses import dataclass, field
 from pathlib import PurePath
 
@@ -85,10 +86,8 @@ def read_bodies(statements: Statements, counts: Counts, frames: list[ParFrame]) 
     result = Bodies()
 
     for k in range(counts.links):
-        cells = {
-            key: statements.read_formula(key, k + counts.floating, f"{key}{k + 1}")
-            for key in INERTIA
-        }
+        places = {key: (k + counts.floating, f"{key}{k + 1}") for key in INERTIA}
+        cells = {key: statements.read_formula(key, *place) for key, place in places.items()}
         if frames[k].variable_column is None:
             if any(key in statements.by_key and not cells[key].is_zero for key in INERTIA):
                 result.notes.append(
@@ -108,9 +107,8 @@ def read_bodies(statements: Statements, counts: Counts, frames: list[ParFrame]) 
             result.links[f"{j + 1}"] = []
     _read_effects(statements, counts, frames, result)
     if result.others:
-        result.notes.append(
-            f"parameters that are not letters of their own: {join_names(result.others)}"
-        )
+        others = join_names(result.others)
+        result.notes.append(f"parameters that are not letters of their own: {others}")
     _describe_omissions(statements, counts, result)
     return result
 
@@ -132,26 +130,22 @@ def _read_effects(
                 continue
             result.effects.setdefault(effect, []).append(f"{k + 1}")
             result.add_parameter(f"{prefix}{k + 1}", entry)
-    friction_joints = {
-        name for each in ("viscous", "coulomb") for name in result.effects.get(each, ())
-    }
-    if offset := [
-        f"{k + 1}" for k in range(counts.links) if frames[k].mu and f"{k + 1}" in friction_joints
-    ]:
+    effects = [result.effects.get(effect, []) for effect in ("viscous", "coulomb")]
+    friction_joints = {*itertools.chain(*effects)}
+    actuated = [f"{k + 1}" for k in range(counts.links) if frames[k].mu]
+    if offset := [name for name in actuated if name in friction_joints]:
         result.effects["offset"] = offset
         result.notes.append(f"added to the joints with friction: offset ({join_names(offset)})")
     if without:
-        result.notes.append(
-            f"{join_names(without)}: left out, rotor inertias of joints without a motor (Mu 0)"
-        )
+        note = "left out, rotor inertias of joints without a motor (Mu 0)"
+        result.notes.append(f"{join_names(without)}: {note}")
 
 
 def _describe_omissions(statements: Statements, counts: Counts, result: Bodies) -> None:
     """Say what of the file has no place in a robot file."""
     if counts.floating:
-        result.notes.append(
-            "is_mobile, is_floating: the base stands still here, its own parameters are left out"
-        )
+        note = "the base stands still here, its own parameters are left out"
+        result.notes.append(f"is_mobile, is_floating: {note}")
     forces = [key for key in FORCES if any(e != "0" for e in statements.get_entries(key))]
     springs = [key for key in ("eta", "k") if any(e != "0" for e in statements.get_entries(key))]
     states = [key for key in JOINTS[:3] if _has_numbers(statements.get_entries(key))]
@@ -236,21 +230,18 @@ def convert_par_file(data: bytes, where: str) -> ConvertedRobot:
         symbols.notes.append(f"joint variables are called q<row> here: {join_names(other)}")
     convert_table_cells(frames, counts, names, symbols, statements.place)
     links = read_bodies(statements, counts, frames)
-    pull = convert_gravity(
-        read_gravity_entries(statements, symbols.notes), symbols, statements.place
-    )
+    entries = read_gravity_entries(statements, symbols.notes)
+    pull = convert_gravity(entries, symbols, statements.place)
     notes = [*symbols.notes, *links.notes, *([_NO_HOME] if counts.loops else [])]
     kind = statements.read_scalar("Type", "[012]", "0 (simple), 1 (tree) or 2 (closed)")
     if kind and (kind == "2") != bool(counts.loops):
-        notes.append(
-            f"Type is {kind}, but NJ - NL says that {counts.loops} joints are cut, which counts"
-        )
+        stated = f"Type is {kind}, but NJ - NL says"
+        notes.append(f"{stated} that {counts.loops} joints are cut, which counts")
     name = choose_robot_name(statements.name, PurePath(where).stem)
     source = f"SYMORO file {PurePath(where).name}"
     head = format_head(name, statements.name, source, notes, pull)
-    return ConvertedRobot(
-        join_lines([*head, *_format_tables(symbols, counts, links, frames)]), tuple(notes)
-    )
+    tables = _format_tables(symbols, counts, links, frames)
+    return ConvertedRobot(join_lines([*head, *tables]), tuple(notes))
 
 
 def _format_tables(

@@ -131,12 +131,10 @@ def read_par_frames(statements: Statements, counts: Counts) -> list[ParFrame]:
     frames = []
     for k in range(counts.frames):
         cells = {key: statements.read_formula(key, k, "0") for key in GEOMETRY}
-        antecedent = _read_whole_number(
-            statements, "Ant", k, range(k + 1), "the base, 0, or a frame before it"
-        )
-        sigma = _read_whole_number(
-            statements, "Sigma", k, range(3), "0 revolute, 1 prismatic or 2 fixed"
-        )
+        expected = "the base, 0, or a frame before it"
+        antecedent = _read_whole_number(statements, "Ant", k, range(k + 1), expected)
+        expected = "0 revolute, 1 prismatic or 2 fixed"
+        sigma = _read_whole_number(statements, "Sigma", k, range(3), expected)
         mu = _read_whole_number(statements, "Mu", k, range(2), "1 actuated or 0 passive")
         frames.append(ParFrame(k + 1, antecedent, sigma, mu if sigma < 2 else 0, cells))
     return frames
@@ -317,9 +315,8 @@ def replace_inverse_functions(
         try:
             value = INVERSE[name](*(symbols.evaluate_formula(argument) for argument in call.args))
         except ValueError:
-            raise place.make_error(
-                f"got {format_tree(call)}, which has no value at these lengths"
-            ) from None
+            what = f"got {format_tree(call)}, which has no value at these lengths"
+            raise place.make_error(what) from None
         symbol = symbols.add_symbol("ang1", float(f"{value:.12g}"), f"rad, {format_tree(call)}")
         symbols.notes.append(
             f"{format_tree(call)} is a symbol {symbol} with the value at the lengths above: change "
@@ -392,9 +389,8 @@ def convert_table_cells(
     """
     _declare_letters(frames, counts, variables, symbols)
     cells = [(frame, column) for frame in frames for column in GEOMETRY]
-    exact = replace_inverse_functions(
-        [frame.cells[column] for frame, column in cells], symbols, place
-    )
+    formulas = [frame.cells[column] for frame, column in cells]
+    exact = replace_inverse_functions(formulas, symbols, place)
     for (frame, column), cell in zip(cells, exact, strict=True):
         frame.cells[column] = cell
     rounded: dict[str, str] = {}
@@ -463,9 +459,8 @@ def _declare_letters(
         for column in GEOMETRY:
             cell = frame.cells[column]
             if cell.names:
-                frame.cells[column] = cell.replace_tree(
-                    rename_letters(cell.tree, names | variables)
-                )
+                tree = rename_letters(cell.tree, names | variables)
+                frame.cells[column] = cell.replace_tree(tree)
 
 
 def _snap_cell_angle(cell: ParFormula, rounded: dict[str, str]) -> ParFormula:
@@ -499,9 +494,8 @@ def _declare_number(
         )
     if abs(number) not in equal:
         unit = "rad" if column in ANGLES else "m"
-        equal[abs(number)] = [
-            symbols.add_symbol(f"{LETTER[column]}{frame.number}", abs(number), unit)
-        ]
+        name = f"{LETTER[column]}{frame.number}"
+        equal[abs(number)] = [symbols.add_symbol(name, abs(number), unit)]
     else:
         equal[abs(number)].append(f"{column} of frame {frame.number}")
     name = equal[abs(number)][0]
@@ -523,9 +517,8 @@ def _add_variables(frames: list[ParFrame], symbols: Symbols) -> None:
         frame.cells[frame.variable_column] = ParFormula(tree, format_tree(tree))
         missing.append(f"q{frame.number}")
     if missing:
-        symbols.notes.append(
-            f"joint variables that the file leaves out are added: {join_names(missing)}"
-        )
+        names = join_names(missing)
+        symbols.notes.append(f"joint variables that the file leaves out are added: {names}")
 
 
 def convert_gravity(entries: tuple[str, ...], symbols: Symbols, place: TomlCell) -> list[str]:

@@ -109,9 +109,8 @@ def scan_statements(data: bytes, where: str) -> Statements:
     bare = _COMMENT.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
     opened = bare.find("(*")
     if opened >= 0:
-        raise _locate_line(place, bare, opened).make_error(
-            'the comment "(*" is not closed; end it with "*)"'
-        )
+        here = _locate_line(place, bare, opened)
+        raise here.make_error('the comment "(*" is not closed; end it with "*)"')
     by_key: dict[str, Statement] = {}
     at = 0
     while re.search(r"[^\s;]", bare[at:]):
@@ -140,9 +139,8 @@ def _decode_text(data: bytes, place: TomlCell) -> str:
         except UnicodeDecodeError:
             text = data.decode("cp1252", errors="replace")
     if "\0" in text:
-        raise place.make_error(
-            "is no text; expected a SYMORO file, such as KEY = {0,1,2} line by line"
-        )
+        expected = "expected a SYMORO file, such as KEY = {0,1,2} line by line"
+        raise place.make_error(f"is no text; {expected}")
     return text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\x1a")  # end of file in DOS
 
 
@@ -169,9 +167,8 @@ def _read_statement(text: str, at: int, place: TomlCell) -> tuple[Statement, int
         value = re.compile(r"[^\n;]*").match(text, head.end())
         assert value is not None
         if key not in SCALARS:
-            raise here.make_error(
-                f"{key}: got {quote_value(value[0].strip())}; expected a list in braces"
-            )
+            got = quote_value(value[0].strip())
+            raise here.make_error(f"{key}: got {got}; expected a list in braces")
         return Statement(key, (value[0].strip(),), here), value.end()
     end = text.find("}", head.end())
     inner = text[head.end() + 1 : end]
@@ -210,9 +207,8 @@ INVERSE: dict[str, Callable[..., float]] = {
 }
 """Functions of `.par` files that robot files do not have."""
 
-_FUNCTION = {name: name for name in (*FUNCTIONS, *INVERSE)} | {
-    f"arc{name[1:]}": name for name in INVERSE
-}
+_FUNCTION = {name: name for name in (*FUNCTIONS, *INVERSE)}
+_FUNCTION |= {f"arc{name[1:]}": name for name in INVERSE}
 _NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:(?:[eE]|\*\^)[+-]?\d+)?"
 _TOKEN = re.compile(rf"({_NUMBER})|([^\W\d]\w*)(\s*[(\[])?|(\*\*|\^|[-+*/()\[\],])|(\s+)|(.)")
 _PLAIN = re.compile(rf"[+-]?\s*{_NUMBER}")
@@ -337,9 +333,9 @@ def _translate_arctan(text: str) -> str:
             return ast.Call(ast.Name("atan2", ast.Load()), node.args[::-1], [])
         return node
 
-    return (
-        ast.unparse(rewrite_tree(parse_python(text), swap_arguments)) if "atan(" in text else text
-    )
+    if "atan(" not in text:
+        return text
+    return ast.unparse(rewrite_tree(parse_python(text), swap_arguments))
 
 
 def _replace_inverse_calls(tree: ast.expr) -> ast.expr:

@@ -90,9 +90,8 @@ def _convert_xml(
 
     first = root_match[1] if (root_match := _FIRST.match(data)) else b""
     if first == b"sdf":
-        raise RobotError(
-            f"{path}: is SDF, which is not read; give the URDF that it was made from, or an MJCF"
-        )
+        todo = "give the URDF that it was made from, or an MJCF"
+        raise RobotError(f"{path}: is SDF, which is not read; {todo}")
     if first == b"mujoco":  # or what one includes, as is reported there
         from modeler.formats.mjcf import read_mjcf_tree
 

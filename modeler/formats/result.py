@@ -52,13 +52,10 @@ class LostEffect(ShortRepr):
     def summary_line(self) -> str:
         """Returns the effect, its values and its share of the torque as a line."""
         values = ", ".join(f"{name} = {value:.4g}" for name, value in self.values.items())
-        share_text = (
-            ""
-            if self.share is None
-            else f", about {format_percent(self.share, 2)} of {self.share_of}"
-        )
+        share = "" if self.share is None else f", about {format_percent(self.share, 2)}"
+        share += f" of {self.share_of}" if share else ""
         where = f" of joint {self.joint}" if self.joint else ""
-        return f"{self.effect or 'parameter'}{where} ({values}){share_text}"
+        return f"{self.effect or 'parameter'}{where} ({values}){share}"
 
 
 def find_lost_effects(
@@ -275,9 +272,8 @@ def build_drive_values(
     for quantity, terms in physics.collect_drive_terms(joint.name, to).items():
         now, sigma = physics.evaluate_sum(terms)
         unit, before = _DRIVE_UNITS[quantity][0 if joint.is_revolute else 1], was.get(quantity)
-        changed = before is None or abs(now - before) > THRESHOLDS.max_unchanged_difference * abs(
-            now
-        )
+        most = THRESHOLDS.max_unchanged_difference * abs(now)
+        changed = before is None or abs(now - before) > most
         deviation = sigma if physics.fit else None
         yield Value(part, quantity, unit, before, now, deviation, changed)
 
@@ -286,15 +282,10 @@ def insert_comment(data: bytes, exported: Exported) -> bytes:
     """Returns file with what it holds as one comment at its head, in place of an earlier one."""
     data = _OURS.sub(b"", data, count=1)
     lines = [f"{exported.robot}: value, was, standard deviation"]
-    lines += [
-        _format_line(value)
-        for value in exported.values
-        if _is_visible_change(value) or not exported.template
-    ]
-    lines += [
-        f"not held by {exported.format.upper()}: {lost.summary_line}"
-        for lost in exported.lost_effects
-    ]
+    shown = (v for v in exported.values if _is_visible_change(v) or not exported.template)
+    lines += map(_format_line, shown)
+    name = exported.format.upper()
+    lines += [f"not held by {name}: {lost.summary_line}" for lost in exported.lost_effects]
     lines += exported.notes
     text = "\n  ".join(lines).replace("--", "- -")
     head = _DECLARATION.match(data)
@@ -325,19 +316,15 @@ def _format_title(exported: Exported) -> str:
 
 def _format_summary(exported: Exported) -> str:
     changed = sum(value.is_changed for value in exported.values)
-    change_text = f" like {exported.template}: {changed} of {len(exported.values)} numbers changed"
-    first = f"{exported.robot} as {_format_title(exported)}"
-    first += (
-        change_text
-        if exported.template
-        else f": {len(exported.values)} numbers" * bool(exported.values)
-    )
-    first += f"{',' if exported.values else ':'} {len(exported.functions)} functions" * bool(
-        exported.functions
-    )
-    lost = [
-        f"{_format_title(exported)} cannot hold {one.summary_line}" for one in exported.lost_effects
-    ]
+    title, count = _format_title(exported), len(exported.values)
+    first = f"{exported.robot} as {title}"
+    if exported.template:
+        first += f" like {exported.template}: {changed} of {count} numbers changed"
+    elif count:
+        first += f": {count} numbers"
+    if exported.functions:
+        first += f"{',' if count else ':'} {len(exported.functions)} functions"
+    lost = [f"{title} cannot hold {one.summary_line}" for one in exported.lost_effects]
     return "\n".join([first, *exported.notes, *lost])
 
 

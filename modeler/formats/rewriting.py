@@ -8,6 +8,7 @@ import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import chain
 
 import numpy as np
 
@@ -85,10 +86,8 @@ class FileEdits:
         if tags:
             new_element = self.new.setdefault(id(element), (element, ET.Element("new")))[1]
             for tag in tags:
-                existing_child = new_element.find(tag)
-                new_element = (
-                    ET.SubElement(new_element, tag) if existing_child is None else existing_child
-                )
+                inner = new_element.find(tag)
+                new_element = ET.SubElement(new_element, tag) if inner is None else inner
             new_element.attrib |= {attribute: text} if attribute else {}
             new_element.text = None if attribute else text
         elif attribute:
@@ -183,20 +182,16 @@ class _NumberEditor:
             now = distribute_change(tens, ten)
             notes.append(f"{placed_links.carrier}: what hangs on it is changed with it: {others}")
         else:
-            now = {
-                **tens,
-                placed_links.carrier: ten - whole + tens.get(placed_links.carrier, np.zeros(10)),
-            }
+            carried = tens.get(placed_links.carrier, np.zeros(10))
+            now = {**tens, placed_links.carrier: ten - whole + carried}
             if others:
                 notes.append(f"{placed_links.carrier}: what changes is on it; {others} as before")
         for name, new in now.items():
             pose, was = placed_links.poses[name], self.source.links[name]
             axes = find_inertial_axes(self.source, self.elements.get(("link", name)))
-            before = (
-                None
-                if was is None
-                else compute_central_parameters(compute_standard_parameters(was), axes)
-            )
+            before = None
+            if was is not None:
+                before = compute_central_parameters(compute_standard_parameters(was), axes)
             fresh = keep_unchanged(
                 compute_central_parameters(express_parameters(new, pose.inverse()), axes), before
             )
@@ -220,20 +215,17 @@ class _NumberEditor:
         if other[0]:
             self.file.set_number(link, self.paths["mass"], format_numbers(new[:1]))
         if other[1:4].any():
-            angles = (
-                (get_text_at(link, self.paths["centre"]).split()[3:] or ["0 0 0"]) if sdf else []
-            )
-            self.file.set_number(
-                link, self.paths["centre"], " ".join([format_numbers(new[1:4]), *angles])
-            )
+            words = get_text_at(link, self.paths["centre"]).split()
+            angles = (words[3:] or ["0 0 0"]) if sdf else []
+            text = " ".join([format_numbers(new[1:4]), *angles])
+            self.file.set_number(link, self.paths["centre"], text)
         if mjcf and other[4:].any():
             inertial = find_first_child(link, "inertial")
             for name in _TURNED if inertial is not None else ():
                 if inertial is not None and name in inertial.spans:
                     self.file.remove_attribute(inertial, name)
-            self.file.set_number(
-                link, self.paths["tensor"], format_numbers(new[[4, 7, 9, 5, 6, 8]])
-            )
+            text = format_numbers(new[[4, 7, 9, 5, 6, 8]])
+            self.file.set_number(link, self.paths["tensor"], text)
         for k, key in enumerate(() if mjcf or not other[4:].any() else TENSOR, 4):
             path = self.paths["tensor"].format(key)
             if other[k] or not get_text_at(link, path):
@@ -281,26 +273,18 @@ class _NumberEditor:
 def _collect_elements(root: Element) -> dict[tuple[str, str], Element]:
     """Links and joints of URDF (<transmission> names joints too) and SDF."""
     parts = root.children if root.tag == "robot" else root.iterate_elements()
-    return {
-        (e.tag, e.attributes.get("name", "").strip()): e
-        for e in parts
-        if e.tag in ("link", "joint")
-    }
+    named = [element for element in parts if element.tag in ("link", "joint")]
+    return {(e.tag, e.attributes.get("name", "").strip()): e for e in named}
 
 
 def _collect_mjcf_elements(root: Element) -> dict[tuple[str, str], Element]:
     """Bodies and joints, those without a name by their number, as the reader calls them."""
-    bodies = [
-        e
-        for world in root.find_children("worldbody")
-        for e in world.iterate_elements()
-        if e.tag == "body"
-    ]
+    inside = (world.iterate_elements() for world in root.find_children("worldbody"))
+    bodies = [element for element in chain(*inside) if element.tag == "body"]
     joints = [joint for body in bodies for joint in _iterate_joints(body)]
     links = {("link", e.attributes.get("name") or f"body{k}"): e for k, e in enumerate(bodies, 1)}
-    return links | {
-        ("joint", e.attributes.get("name") or f"joint{k}"): e for k, e in enumerate(joints)
-    }
+    names = [e.attributes.get("name") or f"joint{k}" for k, e in enumerate(joints)]
+    return links | {("joint", name): e for name, e in zip(names, joints, strict=True)}
 
 
 def _iterate_joints(element: Element) -> Iterator[Element]:
@@ -314,9 +298,7 @@ def _iterate_joints(element: Element) -> Iterator[Element]:
 
 def _has_actuator_terms(root: Element) -> bool:
     """Whether actuators of MJCF have armature or damping."""
-    parts = (
-        element for part in root.find_children("actuator") for element in part.iterate_elements()
-    )
+    parts = chain(*(part.iterate_elements() for part in root.find_children("actuator")))
     return any({"armature", "damping"} & element.attributes.keys() for element in parts)
 
 

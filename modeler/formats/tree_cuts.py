@@ -54,9 +54,8 @@ def parse_lock_values(texts: Iterable[str]) -> dict[str, str]:
         if not (name and equals and value):
             raise TomlCell("--lock", "", text).make_mismatch('joint=position such as "elbow=0.3"')
         if name in positions:
-            raise TomlCell("--lock", "", text).make_error(
-                f"joint {quote_value(name)} is locked twice"
-            )
+            what = f"joint {quote_value(name)} is locked twice"
+            raise TomlCell("--lock", "", text).make_error(what)
         positions[name] = value
     return positions
 
@@ -99,9 +98,8 @@ def resolve_leaders(
             joints[name] = fix_joint(joints[name], offset)
             fixed_names.append(name)
         else:
-            joints[name] = replace(
-                joints[name], leader=leader, ratio=ratio, offset=offset, actuated=False
-            )
+            joint = replace(joints[name], leader=leader, ratio=ratio, offset=offset)
+            joints[name] = replace(joint, actuated=False)
     return fixed_names, ""
 
 
@@ -115,15 +113,13 @@ def _apply_lock(tree: BodyTree, name: str, value: str | float) -> BodyTree:
             f"{join_names(joints)}"
         )
     if joint.leader:
-        raise place.make_error(
-            f"it follows joint {quote_value(joint.leader)}; lock that one, both stop then"
-        )
+        leader = quote_value(joint.leader)
+        raise place.make_error(f"it follows joint {leader}; lock that one, both stop then")
     position = _read_position(place.with_value(value), joint)
     if joint.kind is JointKind.FIXED and position != 0.0:
         kind = tree.unsupported_joints.get(name, ": fixed").rsplit(": ", 1)[1]
-        raise place.with_value(value).make_mismatch(
-            f"0: a {kind} joint is held where the file has it"
-        )
+        expected = f"0: a {kind} joint is held where the file has it"
+        raise place.with_value(value).make_mismatch(expected)
     notes = list(tree.notes)
     if (joint.lower is not None and position < joint.lower - 1e-9) or (
         joint.upper is not None and position > joint.upper + 1e-9
@@ -152,9 +148,8 @@ def _read_position(place: TomlCell, joint: TreeJoint) -> float:
         raise place.make_mismatch('a position in rad or m, such as 0.3 or "30 deg"') from None
     unit = "m" if joint.kind is JointKind.PRISMATIC else "rad"
     if units - {unit} or not abs(position) < LARGEST_LENGTH:
-        raise place.make_mismatch(
-            f"a position in {unit}, for the joint is {joint.kind.name.lower()}"
-        )
+        kind = joint.kind.name.lower()
+        raise place.make_mismatch(f"a position in {unit}, for the joint is {kind}")
     return position
 
 
@@ -162,9 +157,8 @@ def _check_link(tree: BodyTree, option: str, name: str) -> str:
     if name not in tree.bodies or name in tree.auxiliary_bodies:
         known = [body for body in tree.bodies if body not in tree.auxiliary_bodies]
         is_joint = any(joint.name == name for joint in tree.joints)
-        problem = (
-            "is a joint; expected a link" if is_joint else f"no link of that name in {tree.name}"
-        )
+        lacking = f"no link of that name in {tree.name}"
+        problem = "is a joint; expected a link" if is_joint else lacking
         raise RobotError(f"{option}: {quote_value(name)}: {problem}{suggest_name(name, known)}")
     return name
 
@@ -177,9 +171,8 @@ def _cut_to_base(tree: BodyTree, name: str) -> BodyTree:
     part = _extract_subtree(tree, base, lambda _: True, "before --base")
     gravity = poses[base].rotation.T @ tree.gravity + 0.0
     entries = ", ".join(f"{entry:.6g}" for entry in gravity)
-    note = (
-        f"gravity in the frame of {quote_value(base)}, with all joints before it at 0: [{entries}]"
-    )
+    where = f"in the frame of {quote_value(base)}"
+    note = f"gravity {where}, with all joints before it at 0: [{entries}]"
     return replace(part, gravity=gravity, notes=(*part.notes, note))
 
 
@@ -211,9 +204,8 @@ def _extract_subtree(
             bodies.add(joint.child)
     names = {joint.name for joint in joints}
     notes = list(tree.notes)
-    removed_bodies = [
-        name for name in tree.bodies if name not in bodies and name not in tree.auxiliary_bodies
-    ]
+    visible = [name for name in tree.bodies if name not in tree.auxiliary_bodies]
+    removed_bodies = [name for name in visible if name not in bodies]
     weight = sum(body.mass for name in removed_bodies if (body := tree.bodies[name]) is not None)
     if removed_bodies:
         advice = "; --lock their joints to keep their weight" if weight and "tip" in where else ""
@@ -221,9 +213,8 @@ def _extract_subtree(
     for place, joint in enumerate(joints):
         if joint.leader and joint.leader not in names:
             joints[place] = fix_joint(joint, joint.offset)
-            description = (
-                f"follows {quote_value(joint.leader)}, which is left out: held at {joint.offset:g}"
-            )
+            leader = quote_value(joint.leader)
+            description = f"follows {leader}, which is left out: held at {joint.offset:g}"
             notes.append(f"joint {quote_value(joint.name)} {description}")
     meetings = tuple(m for m in tree.loop_closures if m.body in bodies and m.other in bodies)
     notes += [f"left out with its body: {m.name}" for m in tree.loop_closures if m not in meetings]

@@ -81,9 +81,8 @@ def choose_independent_joints(tree: BodyTree) -> set[str]:
 
     def compute_closure_errors(q: np.ndarray) -> np.ndarray:
         poses = compute_body_poses(tree, dict(zip(names, q.tolist(), strict=True)))
-        return np.concatenate(
-            [_compute_closure_error(meeting, poses) for meeting in tree.loop_closures]
-        )
+        errors = [_compute_closure_error(meeting, poses) for meeting in tree.loop_closures]
+        return np.concatenate(errors)
 
     steps = THRESHOLDS.closure_difference_step * np.eye(len(q))
     J = np.column_stack(
@@ -144,9 +143,8 @@ def convert_tree(tree: BodyTree, where: str) -> ConvertedRobot:
         RobotError: nothing of it moves.
     """
     if all(joint.kind is JointKind.FIXED for joint in tree.joints):
-        raise RobotError(
-            f"{where}: no joint of the robot moves; expected at least one that turns or slides"
-        )
+        expected = "expected at least one that turns or slides"
+        raise RobotError(f"{where}: no joint of the robot moves; {expected}")
     writer = _TreeWriter(tree, where)
     parts = [
         *format_section(
@@ -174,9 +172,8 @@ class _TreeWriter:
 
     def __init__(self, tree: BodyTree, where: str) -> None:
         self.tree, self.links = tree, collect_moving_links(tree)
-        self.table = build_mdh_table(
-            self.links, [self._locate_loop(meeting) for meeting in tree.loop_closures]
-        )
+        loops = [self._locate_loop(meeting) for meeting in tree.loop_closures]
+        self.table = build_mdh_table(self.links, loops)
         self.symbols = Symbols(notes=list(tree.notes))
         self._equal: dict[float, str] = {}
         moving_joints = [link.joint for link in self.links if link.joint is not None]
@@ -191,9 +188,8 @@ class _TreeWriter:
             if tree.loop_closures and not chosen:
                 raise RobotError(f"{where}: its loops leave no joint free to move; correct them")
             which = summarise_names(joint.name for joint in moving_joints if joint.name in chosen)
-            self.symbols.notes.append(
-                note.replace("all joints", which) if tree.loop_closures else note
-            )
+            note = note.replace("all joints", which) if tree.loop_closures else note
+            self.symbols.notes.append(note)
         self.free = self.driven if tree.loop_closures else free
         self.rows = [self._format_row(row) for row in self.table.rows]
         self.loops = self._add_loop_rows()
@@ -226,9 +222,8 @@ class _TreeWriter:
         size, shared = abs(value), None
         if self.tree.loop_closures and not angle:
             shared = next((n for x, n in self._equal.items() if abs(x - size) < 1e-13), None)
-        name = shared or self.symbols.add_symbol(
-            f"{LETTER[column]}{row}", size, "rad" if angle else "m"
-        )
+        preferred, unit = f"{LETTER[column]}{row}", "rad" if angle else "m"
+        name = shared or self.symbols.add_symbol(preferred, size, unit)
         self._equal[size] = name
         return f"-{name}" if value < 0.0 else name
 
@@ -272,9 +267,8 @@ class _TreeWriter:
                 factor = {1.0: "", -1.0: "-"}.get(joint.ratio, f"{joint.ratio!r}*")
                 angle = joint.kind is JointKind.REVOLUTE and _format_angle(joint.offset)
                 offset = angle or ("0" if joint.offset == 0.0 else repr(joint.offset))
-                lines.append(
-                    f'q{name} = "{_format_sum(f"{factor}q{self.row_of[joint.leader]}", offset)}"'
-                )
+                leader = f"{factor}q{self.row_of[joint.leader]}"
+                lines.append(f'q{name} = "{_format_sum(leader, offset)}"')
         return lines
 
     def format_frames(self) -> list[str]:
@@ -286,10 +280,8 @@ class _TreeWriter:
                 place = self.table.places[k] @ pose
                 joint = link.joint.name if link.joint and body == moved_body else ""
                 numbers = [_format_number(snap_length(float(x))) for x in place.position]
-                angles = [
-                    quote_cell(_format_angle(a) or repr(a))
-                    for a in compute_roll_pitch_yaw(place.rotation)
-                ]
+                turns = compute_roll_pitch_yaw(place.rotation)
+                angles = [quote_cell(_format_angle(angle) or repr(angle)) for angle in turns]
                 names = [json.dumps(text, ensure_ascii=False) for text in (body, f"{k}", joint)]
                 cells.append([*names, *numbers, *angles])
         head = "[frames]                              # links of the file on their rows: m, rad"
@@ -344,9 +336,8 @@ class _TreeWriter:
                 continue
             if self._is_measured(link):
                 ten = compute_standard_parameters(whole.express_in(self.table.places[k]))
-                inertia = max(
-                    *np.abs(ten[:6]).tolist(), abs(whole.mass) * THRESHOLDS.min_mass_distance**2
-                )
+                least = abs(whole.mass) * THRESHOLDS.min_mass_distance**2
+                inertia = max(*np.abs(ten[:6]).tolist(), least)
                 scales = [inertia] * 6 + [math.sqrt(abs(whole.mass) * inertia)] * 3 + [0.0]
                 lines += [
                     f"{prefix}{k} = {format_number(*number_and_scale)}"
@@ -359,10 +350,8 @@ class _TreeWriter:
         prior = [f"inertial = {THRESHOLDS.read_body_deviation}"] if lines else []
         lines += self._format_joint_parameters()
         if unreliable_bodies:
-            notes.append(
-                f"no values of {summarise_names(unreliable_bodies)}, which move as one with such a "
-                "body"
-            )
+            names = summarise_names(unreliable_bodies)
+            notes.append(f"no values of {names}, which move as one with such a body")
         if prior:
             notes.append(
                 f"masses, centres and inertias are a prior, with standard deviations of "
@@ -436,9 +425,8 @@ class _TreeWriter:
             acceleration = joint.acceleration
             if acceleration is None:
                 acceleration = THRESHOLDS.default_acceleration_ratio * speed
-                assumptions.append(
-                    f"acceleration {THRESHOLDS.default_acceleration_ratio:g}/s times the speed"
-                )
+                ratio = THRESHOLDS.default_acceleration_ratio
+                assumptions.append(f"acceleration {ratio:g}/s times the speed")
             for what in assumptions:
                 assumed.setdefault(what, []).append(joint.name)
             cells = ", ".join(format_number(x) for x in (lower, upper, speed, acceleration))
@@ -448,9 +436,8 @@ class _TreeWriter:
             )
         parts = [f"{what} of {summarise_names(names)}" for what, names in assumed.items()]
         if parts:
-            self.symbols.notes.append(
-                f"not stated by the file, and assumed in [limits]: {'; '.join(parts)}"
-            )
+            note = "not stated by the file, and assumed in [limits]"
+            self.symbols.notes.append(f"{note}: {'; '.join(parts)}")
         return lines
 
 

@@ -7,7 +7,7 @@ element stands in `urdf_elements.toml`.
 """
 
 import shlex
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -80,24 +80,18 @@ def read_couplings(
     """
     couplings: dict[str, tuple[str, float, float]] = {}
     for spot, follower, leader in _find_couplings(root, joints, tell):
-        if follower not in joints:
-            raise spot.place.make_error(
-                f"there is no joint {quote_value(follower)}{suggest_name(follower, joints)}"
-            )
+        spot.require_known("joint", follower, joints)
         key = "ratio" if spot.element.tag == "coupling" else "multiplier"
-        ratio, offset = (
-            float(spot.read_numbers(k, d)[0]) for k, d in ((key, "1"), ("offset", "0"))
-        )
+        ratio, offset = (spot.read_number(k, d) for k, d in ((key, "1"), ("offset", "0")))
         if joints[follower].kind is JointKind.FIXED:
             continue
         if leader not in joints:
             message = "the file lacks the joint to mimic, it moves freely: {}"
             tell(message, f"{follower} of {leader}")
         elif couplings.setdefault(follower, (leader, ratio, offset)) != (leader, ratio, offset):
-            message = (
-                f"joint {quote_value(follower)} follows in two ways; keep the one that is meant"
-            )
-            raise spot.place.make_error(message)
+            name = quote_value(follower)
+            message = f"joint {name} follows in two ways; keep the one that is meant"
+            raise spot.make_error(message)
     return couplings
 
 
@@ -123,9 +117,8 @@ def _find_couplings(
         line = spot.merge_children("ratio")
         line.require_attribute("ratio", "1")
         if one is None or two is None or one is two or one.parent != two.parent:
-            raise spot.place.make_error(
-                "expected two links whose joints stand on one link; or write a mimic tag"
-            )
+            expected = "expected two links whose joints stand on one link"
+            raise spot.make_error(f"{expected}; or write a mimic tag")
         yield line, two.name, one.name
 
 
@@ -147,25 +140,19 @@ def add_loops(root: LocatedElement, tree: BodyTree, rounded: Roundings) -> BodyT
     closures = [meeting for meeting in closures if meeting not in internal_closures]
     joints, home = tree.joints, dict[str, float]()
     if closures:
-        motors = {
-            j.name
-            for j in root.find_children("joint")
-            if j.get_text("independent").lower() == "true"
-        }
+        elements = root.find_children("joint")
+        motors = {j.name for j in elements if j.get_text("independent").lower() == "true"}
         for outer in root.find_children("transmission", "ros2_control"):
             driven = bool(outer.find_children("actuator"))
-            motors |= {
-                j.name
-                for j in outer.find_children("joint")
-                if driven or j.find_children("command_interface")
-            }
+            for joint in outer.find_children("joint"):
+                if driven or joint.find_children("command_interface"):
+                    motors.add(joint.name)
         joints = tuple(replace(j, actuated=j.name in motors and not j.leader) for j in joints)
         for gazebo in (spot.merge_children(_START) for spot in root.find_children("gazebo")):
             if gazebo.get_text(_START):
-                home[gazebo.get_text("reference")] = float(gazebo.read_numbers(_START, "0")[0])
-    return replace(
-        tree, loop_closures=tuple(closures), joints=joints, home=home, notes=(*tree.notes, *notes)
-    )
+                home[gazebo.get_text("reference")] = gazebo.read_number(_START, "0")
+    tree = replace(tree, loop_closures=tuple(closures), joints=joints, home=home)
+    return replace(tree, notes=(*tree.notes, *notes))
 
 
 def _read_loop_closures(
@@ -178,57 +165,46 @@ def _read_loop_closures(
             side_origin = spot.find_child(f"{side.element.tag}_origin")
             origin = next((o for o in (inside, side_origin) if o.is_given), side)
             axis = spot.find_child(f"{side.element.tag}_axis")
-            turn = _compute_axis_frame(
-                axis if axis.is_given else spot.find_child("axis"), "xyz", kind
-            )
-            links.append(_read_link(side, "link", tree))
+            axis = axis if axis.is_given else spot.find_child("axis")
+            turn = _compute_axis_frame(axis, "xyz", kind)
+            links.append(_read_link(side, "link", tree.bodies))
             poses.append(read_pose(origin, rounded) @ Pose(rotation=turn))
         if len(links) != 2:
-            raise spot.place.make_error(f"expected the two links that meet, got {len(links)}")
+            raise spot.make_error(f"expected the two links that meet, got {len(links)}")
         yield LoopClosure(spot.name, links[0], poses[0], links[1], poses[1], kind)
     for spot in root.find_children("drake:ball_constraint"):
         inner = [spot.find_child(f"drake:ball_constraint_{key}") for key in _BALL]
-        bodies = [_read_link(body, "name", tree) for body in inner[:2]]
+        bodies = [_read_link(body, "name", tree.bodies) for body in inner[:2]]
         places = [Pose(rounded.snap_lengths(at.read_numbers("value", "0 0 0"))) for at in inner[2:]]
         yield LoopClosure("ball_constraint", bodies[0], places[0], bodies[1], places[1])
     at_zero = compute_body_poses(tree, {})
-    for spot in (
-        j for gazebo in root.find_children("gazebo") for j in gazebo.find_children("joint")
-    ):
+    for spot in root.find_grandchildren("gazebo", "joint"):
         flat, kind = spot.merge_children("parent", "child", "pose"), _read_loop_kind(spot)
         axis = spot.find_child("axis").merge_children("xyz")
-        seen = [
-            *spot.find_child("pose").element.attributes,
-            *axis.find_child("xyz").element.attributes,
-        ]
+        parts = spot.find_child("pose"), axis.find_child("xyz")
+        seen = any(each.element.attributes for each in parts)
         if seen or axis.find_child("use_parent_model_frame").is_given:
             message = "its pose or axis is seen from another frame; expected that of the child"
-            raise spot.place.make_error(message)
+            raise spot.make_error(message)
         world = flat.get_text("parent") == "world" and "world" not in tree.bodies
-        parent = tree.root if world else _read_link(flat, "parent", tree)
-        child = _read_link(flat, "child", tree)
+        parent = tree.root if world else _read_link(flat, "parent", tree.bodies)
+        child = _read_link(flat, "child", tree.bodies)
         place = flat.read_digits("pose", "0 0 0 0 0 0")
-        turn = compute_rpy_rotation(map(rounded.snap_angle, place[3:])) @ _compute_axis_frame(
-            axis, "xyz", kind
-        )
+        turn = compute_rpy_rotation(map(rounded.snap_angle, place[3:]))
+        turn = turn @ _compute_axis_frame(axis, "xyz", kind)
         frame = Pose(rounded.snap_lengths(np.array(place[:3], float)), turn)
         other = at_zero[parent].inverse() @ at_zero[child] @ frame
         yield LoopClosure(spot.name, parent, other, child, frame, kind)
 
 
-def _read_link(spot: LocatedElement, attribute: str, tree: BodyTree) -> str:
-    if (link := spot.require_attribute(attribute, "link1")) not in tree.bodies:
-        raise spot.place.make_error(
-            f"there is no link {quote_value(link)}{suggest_name(link, tree.bodies)}"
-        )
-    return link
+def _read_link(spot: LocatedElement, attribute: str, links: Collection[str]) -> str:
+    return spot.require_known("link", spot.require_attribute(attribute, "link1"), links)
 
 
 def _read_loop_kind(spot: LocatedElement) -> str:
     if (kind := spot.get_text("type").lower()) not in _LOOPS:
-        raise spot.place.enter("type", kind).make_mismatch(
-            f"a joint that closes a loop: {summarise_names(_LOOPS)}"
-        )
+        expected = f"a joint that closes a loop: {summarise_names(_LOOPS)}"
+        raise spot.place.enter("type", kind).make_mismatch(expected)
     return _LOOPS[kind]
 
 
@@ -237,9 +213,7 @@ def _compute_axis_frame(axis: LocatedElement, attribute: str, kind: str) -> np.n
     if kind in ("rigid", "spherical", "position"):
         return np.eye(3)
     if not axis.is_given:
-        raise axis.place.make_error(
-            f"is missing; expected the direction of the axis of a {kind} joint"
-        )
+        raise axis.make_error(f"is missing; expected the direction of the axis of a {kind} joint")
     z = axis.read_direction(attribute, "1 0 0")
     if z[2] == 1.0:
         return np.eye(3)
@@ -257,16 +231,10 @@ def add_armatures(root: LocatedElement, joints: Joints, tell: Tell) -> None:
     As `motorInertia` and `mechanicalReduction` of the actuator, the joint and the transmission, or
     as `drake:rotor_inertia` and `drake:gear_ratio` (drake.mit.edu, "Reflected inertia").
     """
-    inner = (
-        t
-        for control in root.find_children("ros2_control")
-        for t in control.find_children("transmission")
-    )
+    inner = root.find_grandchildren("ros2_control", "transmission")
     for spot in (*root.find_children("transmission"), *inner):
-        motors, driven = (
-            [s.merge_children(*_GEARS) for s in spot.find_children(tag)]
-            for tag in ("actuator", "joint")
-        )
+        motors = [s.merge_children(*_GEARS) for s in spot.find_children("actuator")]
+        driven = [s.merge_children(*_GEARS) for s in spot.find_children("joint")]
         if len(motors) > 1 or len(driven) > 1:
             tell(_SEVERAL, spot.name)
             continue
@@ -278,10 +246,10 @@ def add_armatures(root: LocatedElement, joints: Joints, tell: Tell) -> None:
                 tell("rotors on joints that are not there are left out: {}", spot.name)
                 continue
             gear_key = next((key for key in _GEARS[2:] if motor.get_text(key)), "")
-            gear = float(motor.read_numbers(gear_key, "1")[0])
+            gear = motor.read_number(gear_key, "1")
             for other in (driven[0], spot.merge_children(_GEARS[3])):
-                gear *= float(other.read_numbers(_GEARS[3], "1")[0])
-            rotor_inertia, joint = float(motor.read_numbers(rotor, "0")[0]), joints[driven[0].name]
+                gear *= other.read_number(_GEARS[3], "1")
+            rotor_inertia, joint = motor.read_number(rotor, "0"), joints[driven[0].name]
             armature = (joint.armature or 0.0) + gear**2 * rotor_inertia
             joints[joint.name] = replace(joint, armature=armature)
             message = "armature is gear ratio squared times rotor inertia: {}"
@@ -303,16 +271,15 @@ def add_springs(root: LocatedElement, joints: Joints, tell: Tell) -> None:
         for spot in root.find_children("gazebo")
     ]
     for name, spot, stiffness, rest in springs:
-        spring_values = tuple(float(spot.read_numbers(key, "0")[0]) for key in (stiffness, rest))
+        spring_values = tuple(spot.read_number(key, "0") for key in (stiffness, rest))
         if not spot.get_text(stiffness):
             continue
         joint = joints.get(name)
         if joint is None or joint.kind is JointKind.FIXED:
             tell("springs of what does not move are left out: {}", name)
         elif joint.stiffness is not None and (joint.stiffness, joint.rest) != spring_values:
-            raise spot.place.make_error(
-                f"joint {quote_value(name)} has two springs that differ; keep one"
-            )
+            what = f"joint {quote_value(name)} has two springs that differ"
+            raise spot.make_error(f"{what}; keep one")
         else:
             joints[name] = replace(joint, stiffness=spring_values[0], rest=spring_values[1])
 
@@ -351,7 +318,7 @@ def read_urdf_tree(data: bytes, where: str, exact_decimals: bool = False) -> Bod
 
 def _check_format(root: LocatedElement, where: str) -> None:
     if root.element.tag != "robot":
-        raise root.place.make_error(f"<{root.element.tag}> is no URDF, which begins with <robot>")
+        raise root.make_error(f"<{root.element.tag}> is no URDF, which begins with <robot>")
     for child in root.element.children:
         macros = child.tag in ("include", "macro", "property")
         ours = child.tag in ("link", "joint")
@@ -384,7 +351,7 @@ class _UrdfReader:
     def read_tree(self) -> BodyTree:
         links, spots = self._collect_elements("link"), self._collect_elements("joint")
         if not links:
-            raise self._root.place.make_error('<robot> has no link; expected <link name="...">')
+            raise self._root.make_error('<robot> has no link; expected <link name="...">')
         bodies = {name: self._read_body(name, link) for name, link in links.items()}
         joints = {name: self._read_joint(name, spot, links) for name, spot in spots.items()}
         root = _find_first_link(self._root.place, bodies, joints, spots)
@@ -401,26 +368,22 @@ class _UrdfReader:
             unsupported_joints=self._unread,
         )
         tree = add_loops(self._root, tree, self._rounded)
-        element_notes = load_element_table("urdf").collect_notes(
-            [(self._where, self._root.element)]
-        )
+        files = [(self._where, self._root.element)]
+        element_notes = load_element_table("urdf").collect_notes(files)
         return replace(tree, notes=(*self._collect_notes(), *tree.notes, *element_notes))
 
     def _collect_elements(self, tag: str) -> dict[str, LocatedElement]:
         spots: dict[str, LocatedElement] = {}
         for element in self._root.element.find_children(tag, f"drake:{tag}"):
-            name = LocatedElement(element, self._where, f"<{tag}>").require_attribute(
-                "name", f"{tag}1"
-            )
+            named = LocatedElement(element, self._where, f"<{tag}>")
+            name = named.require_attribute("name", f"{tag}1")
             spot = LocatedElement(element, self._where, f"{tag} {quote_value(name)}")
             if name in spots:
                 first = f"the first is in line {spots[name].element.line}"
-                raise spot.place.make_error(f"a second {tag} of that name; {first}: rename one")
+                raise spot.make_error(f"a second {tag} of that name; {first}: rename one")
             spots[name] = spot
             if len(spots) > THRESHOLDS.max_links:
-                raise spot.place.make_error(
-                    f"more than {THRESHOLDS.max_links} of them; is this a robot?"
-                )
+                raise spot.make_error(f"more than {THRESHOLDS.max_links} of them; is this a robot?")
         return spots
 
     def _add_note(self, what: str, name: str) -> None:
@@ -434,17 +397,15 @@ class _UrdfReader:
         tensor = inertial.require_child("inertia", 'ixx="0.01" ..')
         mass.require_attribute("value", "1")
         entries = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-        printed = [
-            tensor.require_attribute(e, "0.01") and tensor.read_digits(e, "0.01")[0]
-            for e in entries
-        ]
+        for entry in entries:
+            tensor.require_attribute(entry, "0.01")
+        printed = [tensor.read_digits(entry, "0.01")[0] for entry in entries]
         matrix = np.zeros((3, 3))
         matrix[np.triu_indices(3)] = [float(word) for word in printed]
         matrix = np.triu(matrix) + np.triu(matrix, 1).T
         body = Inertial(float(mass.read_digits("value", "1")[0]), np.zeros(3), matrix)
-        reason = find_inertia_defect(
-            body, sum(compute_half_unit(word) for word in printed if float(word))
-        )
+        slack = sum(compute_half_unit(word) for word in printed if float(word))
+        reason = find_inertia_defect(body, slack)
         if reason:
             self._doubted[name] = reason
         # Measured, and no part of the geometry: as printed.
@@ -457,20 +418,13 @@ class _UrdfReader:
         if kind in _UNREAD:
             self._unread[name] = f"{spot.place.file}: joint {quote_value(name)}: {kind}"
         elif kind not in _KINDS:
-            raise spot.place.enter("type", kind).make_mismatch(
-                f"{join_names(_KINDS)}{suggest_name(kind, _KINDS)}"
-            )
+            expected = f"{join_names(_KINDS)}{suggest_name(kind, _KINDS)}"
+            raise spot.place.enter("type", kind).make_mismatch(expected)
         parent, child = (spot.require_child(end, 'link="..."') for end in ("parent", "child"))
-        for inner in (parent, child):
-            if (link := inner.require_attribute("link", "link1")) not in links:
-                raise inner.place.make_error(
-                    f"there is no link {quote_value(link)}{suggest_name(link, links)}"
-                )
-        ends = parent.require_attribute("link", ""), child.require_attribute("link", "")
+        ends = [_read_link(inner, "link", links) for inner in (parent, child)]
         joint_kind = _KINDS.get(kind, JointKind.FIXED)
-        joint = TreeJoint(
-            name, joint_kind, *ends, read_pose(spot.find_child("origin"), self._rounded)
-        )
+        pose = read_pose(spot.find_child("origin"), self._rounded)
+        joint = TreeJoint(name, joint_kind, ends[0], ends[1], pose)
         if joint.kind is JointKind.FIXED:
             return joint
         limit, dynamics = spot.find_child("limit"), spot.find_child("dynamics")
@@ -496,16 +450,12 @@ class _UrdfReader:
     ) -> tuple[float | None, float | None]:
         """The positions between which the joint may move; None where the file leaves them open."""
         lower, upper = limit.read_optional_number("lower"), limit.read_optional_number("upper")
-        infinite = [
-            k
-            for k in ("lower", "upper")
-            if limit.get_text(k) and limit.read_optional_number(k) is None
-        ]
+        stated = [key for key in ("lower", "upper") if limit.get_text(key)]
+        infinite = [key for key in stated if limit.read_optional_number(key) is None]
         if kind == "continuous":
             if lower or upper:
-                self._add_note(
-                    "type continuous has no range, lower and upper are not taken: {}", name
-                )
+                note = "type continuous has no range, lower and upper are not taken: {}"
+                self._add_note(note, name)
             lower = upper = None
         elif infinite and (lower is not None or upper is not None):
             self._add_note("a range that is infinite on one side is not taken: {}", name)
@@ -548,7 +498,7 @@ class _UrdfReader:
         direct = read_couplings(self._root, joints, self._add_note)
         fixed_names, circle = resolve_leaders(joints, direct)
         if circle:
-            raise spots[circle].place.make_error("follows itself by <mimic>; one of them must lead")
+            raise spots[circle].make_error("follows itself by <mimic>; one of them must lead")
         for name in fixed_names:
             self._add_note("what they mimic does not move, so they are fixed: {}", name)
 
@@ -569,13 +519,9 @@ def _find_first_link(
     for joint in joints.values():
         other = above.setdefault(joint.child, joint)
         if other is not joint:
-            problem = (
-                f"link {quote_value(joint.child)} is the child of joint "
-                f"{quote_value(other.name)} too"
-            )
-            raise spots[joint.name].place.make_error(
-                f"{problem}; expected one parent: a URDF is a tree"
-            )
+            child, above_it = quote_value(joint.child), quote_value(other.name)
+            problem = f"link {child} is the child of joint {above_it} too"
+            raise spots[joint.name].make_error(f"{problem}; expected one parent: a URDF is a tree")
     first = [name for name in bodies if name not in above]
     if len(first) > 1:
         raise place.make_error(
@@ -588,7 +534,7 @@ def _find_first_link(
             for _ in bodies:  # so far up that it is in the circle
                 link = above[link].parent
             problem = f"link {quote_value(link)} is the parent of its own parents"
-            raise spots[above[link].name].place.make_error(f"{problem}; mend <parent> or <child>")
+            raise spots[above[link].name].make_error(f"{problem}; mend <parent> or <child>")
     return first[0]
 
 

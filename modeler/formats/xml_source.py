@@ -11,7 +11,7 @@ in comments are then no mistakes, as they are none to ROS, Pinocchio and MuJoCo.
 import math
 import re
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
@@ -20,7 +20,7 @@ from xml.parsers import expat
 import numpy as np
 
 from modeler.core.errors import RobotError, flatten_message
-from modeler.core.toml_cells import LARGEST, TomlCell, quote_value
+from modeler.core.toml_cells import LARGEST, TomlCell, quote_value, suggest_name
 from modeler.formats.body_tree import (
     Pose,
     Roundings,
@@ -313,15 +313,12 @@ class ElementTable:
                 if key in self.refused:
                     line = f"{where}: line {element.line}: {sentence}"
                     raise RobotError(flatten_message(line.format(called)))
-                if (
-                    sentence not in names_by_sentence
-                    and len(names_by_sentence) >= THRESHOLDS.max_element_notes
-                ):
+                is_full = len(names_by_sentence) >= THRESHOLDS.max_element_notes
+                if sentence not in names_by_sentence and is_full:
                     sentence = "other elements are not known here and are passed over: {}"
                 names_by_sentence.setdefault(sentence, []).append(called)
-        return [
-            sentence.format(summarise_names(names)) for sentence, names in names_by_sentence.items()
-        ]
+        names = {text: summarise_names(each) for text, each in names_by_sentence.items()}
+        return [sentence.format(each) for sentence, each in names.items()]
 
     def _find_reported(self, root: Element) -> Iterator[tuple[Element, str, str, str]]:
         """What is reported or refused: element, what it belongs to, key in the table, sentence."""
@@ -342,9 +339,8 @@ class ElementTable:
                     break
             else:
                 name = name if "/" in path else ""
-                waiting += [
-                    (e, self.extend_path(path, e.tag), name) for e in reversed(element.children)
-                ]
+                children = reversed(element.children)
+                waiting += [(child, self.extend_path(path, child.tag), name) for child in children]
 
     def _is_default(self, name: str, value: str | None) -> bool:
         if value is None:
@@ -394,9 +390,8 @@ class LocatedElement:
         children = self.element.find_children(tag)
         if len(children) > 1:
             self.place = TomlCell(f"{self._where}: line {children[1].line}", self.place.location)
-            raise self.place.make_error(
-                f"a second <{tag}>; expected one: take out what is not meant"
-            )
+            what = "expected one: take out what is not meant"
+            raise self.make_error(f"a second <{tag}>; {what}")
         inner = children[0] if children else Element(tag, {}, self.element.line, {}, (0, 0))
         return LocatedElement(inner, self._where, f"{self.place.location} <{tag}>", bool(children))
 
@@ -411,10 +406,28 @@ class LocatedElement:
             for e in self.element.find_children(*tags)
         ]
 
+    def find_grandchildren(self, outer: str, inner: str) -> "list[LocatedElement]":
+        """Returns the elements `inner` in all children `outer`."""
+        return [
+            each for around in self.find_children(outer) for each in around.find_children(inner)
+        ]
+
     @property
     def name(self) -> str:
         """Returns the name of the element; "" without one."""
         return _get_name(self.element)
+
+    def make_error(self, what: str) -> RobotError:
+        """Returns the error to raise: the place of the element and `what`, as one line."""
+        return self.place.make_error(what)
+
+    def require_known(self, what: str, name: str, known: Collection[str]) -> str:
+        """Returns the name of a link or joint that must be there."""
+        if name not in known:
+            raise self.make_error(
+                f"there is no {what} {quote_value(name)}{suggest_name(name, known)}"
+            )
+        return name
 
     def get_text(self, attribute: str) -> str:
         """Returns an attribute; "" without it."""
@@ -431,7 +444,7 @@ class LocatedElement:
             key = _get_name(child) if child.tag == "param" else child.tag
             text = child.attributes.get("value", child.text).strip()
             if key in keys and values.setdefault(key, text) != text:
-                raise self.place.make_error(f"a second <{child.tag}>; take out what is not meant")
+                raise self.make_error(f"a second <{child.tag}>; take out what is not meant")
         values = {**{key: text for key, text in values.items() if text}, **self.element.attributes}
         return LocatedElement(
             replace(self.element, attributes=values),
@@ -443,13 +456,13 @@ class LocatedElement:
     def require_child(self, tag: str, example: str) -> "LocatedElement":
         """Returns the child of that tag, which the element must have."""
         if not (child := self.find_child(tag)).is_given:
-            raise self.place.make_error(f"<{tag}> is missing; write <{tag} {example}/>")
+            raise self.make_error(f"<{tag}> is missing; write <{tag} {example}/>")
         return child
 
     def require_attribute(self, attribute: str, example: str) -> str:
         """Returns an attribute that must be there."""
         if not (value := self.element.attributes.get(attribute, "").strip()):
-            raise self.place.make_error(f'{attribute} is missing; write {attribute}="{example}"')
+            raise self.make_error(f'{attribute} is missing; write {attribute}="{example}"')
         return value
 
     def read_digits(self, attribute: str, default: str, most: float = LARGEST) -> list[str]:
@@ -466,6 +479,10 @@ class LocatedElement:
     def read_numbers(self, attribute: str, default: str, most: float = LARGEST) -> np.ndarray:
         """Returns the words of an attribute as numbers."""
         return np.array([float(word) for word in self.read_digits(attribute, default, most)])
+
+    def read_number(self, attribute: str, default: str) -> float:
+        """Returns the one number of an attribute."""
+        return float(self.read_digits(attribute, default)[0])
 
     def read_optional_number(self, attribute: str) -> float | None:
         """Reads a number that may be missing or infinite: None then."""
@@ -497,18 +514,16 @@ def read_pose(origin: LocatedElement, rounded: Roundings) -> Pose:
     """
     xyz = rounded.snap_lengths(origin.read_numbers("xyz", "0 0 0", LARGEST_LENGTH))
     if "quat_xyzw" not in origin.element.attributes:
-        return Pose(
-            xyz, compute_rpy_rotation(map(rounded.snap_angle, origin.read_digits("rpy", "0 0 0")))
-        )
+        angles = map(rounded.snap_angle, origin.read_digits("rpy", "0 0 0"))
+        return Pose(xyz, compute_rpy_rotation(angles))
     if "rpy" in origin.element.attributes:
         raise origin.place.make_error("states rpy and quat_xyzw; keep the one that is meant")
     turn = np.roll(origin.read_numbers("quat_xyzw", "0 0 0 1"), 1)
     if float(np.linalg.norm(turn)) < THRESHOLDS.max_rounded_zero:
         place = origin.place.enter("quat_xyzw", origin.element.attributes["quat_xyzw"])
         raise place.make_mismatch('a quaternion such as "0 0 0 1"')
-    return Pose(
-        xyz, compute_quaternion_rotation(turn if rounded.exact else snap_quaternion(turn, rounded))
-    )
+    turn = turn if rounded.exact else snap_quaternion(turn, rounded)
+    return Pose(xyz, compute_quaternion_rotation(turn))
 
 
 def compute_rpy_rotation(angles: Iterable[float]) -> np.ndarray:
@@ -531,6 +546,5 @@ def compute_half_unit(digits: str) -> float:
     """Returns half a unit of the last printed digit."""
     number_match = _DECIMAL.fullmatch(digits)
     assert number_match is not None
-    return 0.5 * 10.0 ** (
-        max(int(number_match[3] or 0), -300) - len(number_match[1] or number_match[2] or "")
-    )
+    decimals = len(number_match[1] or number_match[2] or "")
+    return 0.5 * 10.0 ** (max(int(number_match[3] or 0), -300) - decimals)

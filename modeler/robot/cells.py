@@ -22,6 +22,9 @@ from modeler.core.expression import (
 from modeler.core.toml_cells import LARGEST, TomlCell, join_names, quote_value, suggest_name
 from modeler.robot.thresholds import THRESHOLDS
 
+Values = Mapping[str, float]
+"""Numbers by name."""
+
 _SINES = (
     0.0,
     math.sin(math.pi / 12),
@@ -58,11 +61,8 @@ def count_twelfths(digits: str) -> int | None:
     count = round(float(number) / (math.pi / 12))
     if count == 0 or count > 24:
         return None
-    least = (
-        THRESHOLDS.min_coarse_angle_decimals
-        if count % 6 == 0
-        else THRESHOLDS.min_fine_angle_decimals
-    )
+    coarse = count % 6 == 0
+    least = THRESHOLDS.min_coarse_angle_decimals if coarse else THRESHOLDS.min_fine_angle_decimals
     decimals = _count_decimals(number.normalize())
     if decimals < least:
         decimals = _count_decimals(number)
@@ -182,10 +182,8 @@ class Linear:
             raise NotLinear
         if other.constant == 0.0:
             raise ZeroDivisionError
-        return Linear(
-            self.constant / other.constant,
-            {n: c / other.constant for n, c in self.coefficients.items()},
-        )
+        shares = {name: c / other.constant for name, c in self.coefficients.items()}
+        return Linear(self.constant / other.constant, shares)
 
     def __pow__(self, exponent: "Linear | int") -> "Linear":
         power = exponent if isinstance(exponent, int) else exponent._get_constant()
@@ -205,7 +203,7 @@ class Linear:
         return self.constant
 
 
-def extract_linear_form(expression: Expression, symbols: Mapping[str, float]) -> Linear:
+def extract_linear_form(expression: Expression, symbols: Values) -> Linear:
     """Returns expression as constant + sum of coefficient * variable; zero coefficients left out.
 
     Every name that is not among `symbols` is a variable.
@@ -249,7 +247,7 @@ _QUARTER = math.pi / 2
 
 
 def read_linear_form(
-    expression: Expression, symbols: Mapping[str, float], place: TomlCell, example: str = "q5 + q6"
+    expression: Expression, symbols: Values, place: TomlCell, example: str = "q5 + q6"
 ) -> Linear:
     """Returns the expression as a linear form in the names that are not among `symbols`.
 
@@ -279,7 +277,7 @@ def read_linear_form(
 
 def read_joint_sum(
     expression: Expression,
-    symbols: Mapping[str, float],
+    symbols: Values,
     variables: Collection[str],
     place: TomlCell,
     example: str,
@@ -309,7 +307,7 @@ def read_joint_sum(
     return form
 
 
-def read_length(expression: Expression, symbols: Mapping[str, float], place: TomlCell) -> float:
+def read_length(expression: Expression, symbols: Values, place: TomlCell) -> float:
     """Returns value of a constant that is a length, m, or an acceleration of gravity, m/s2.
 
     Raises:
@@ -386,7 +384,7 @@ def check_unit(
         )
 
 
-def read_number(place: TomlCell, symbols: Mapping[str, float], unit: str = "") -> float:
+def read_number(place: TomlCell, symbols: Values, unit: str = "") -> float:
     """Returns the cell as a number, in `unit`; it may be an expression of the declared symbols.
 
     Raises:
@@ -453,17 +451,14 @@ def read_exact_angle(
                 'angles are in radians, write "90 deg" or "pi/2" for 90 degrees'
             )
         turns = round(form.constant / _QUARTER)
-        if (
-            not expression.uses_pi
-            and abs(form.constant - turns * _QUARTER) <= THRESHOLDS.max_right_angle_rounding
-        ):
+        is_right = abs(form.constant - turns * _QUARTER) <= THRESHOLDS.max_right_angle_rounding
+        if is_right and not expression.uses_pi:
             multiple = format_pi_multiple(Fraction(turns, 2))
             if not form.coefficients:
                 return parse_expression(multiple)
             head = f"{variable}" if form.coefficients[variable or ""] > 0 else f"-{variable}"
-            return parse_expression(
-                f"{head} + {multiple}".replace("+ -", "- ").removesuffix(" + 0")
-            )
+            angle = f"{head} + {multiple}".replace("+ -", "- ").removesuffix(" + 0")
+            return parse_expression(angle)
     return expression.rewrite(lambda tree: recognise_angle_terms(tree, rounded))
 
 
@@ -509,16 +504,15 @@ def read_symbols(
         }
         for what, is_taken in taken.items():
             if is_taken:
-                raise place.make_error(
-                    f"{quote_value(name)} is the name of {what}; choose another name"
-                )
+                word = quote_value(name)
+                raise place.make_error(f"{word} is the name of {what}; choose another name")
         symbols[name] = place.enter(name, cell).read_expression()
         check_declared(symbols[name], table, place.enter(name))
     return _resolve_symbols(symbols, place)
 
 
 def read_gravity(
-    place: TomlCell, variables: Collection[str], symbols: Mapping[str, float]
+    place: TomlCell, variables: Collection[str], symbols: Values
 ) -> tuple[Expression, Expression, Expression]:
     """Returns acceleration of gravity in frame 0, m/s2.
 
@@ -552,9 +546,9 @@ def _resolve_symbols(
         ready = next((n for n, e in waiting.items() if e.names <= ordered.keys()), None)
         if ready is None:
             names = ", ".join(waiting)
-            raise place.make_error(
-                f"the values of {names} refer to each other in a circle; give one of them a number"
-            )
+            names = ", ".join(waiting)
+            what = "refer to each other in a circle; give one of them a number"
+            raise place.make_error(f"the values of {names} {what}")
         ordered[ready] = waiting.pop(ready)
         values[ready] = read_linear_form(ordered[ready], values, place.enter(ready)).constant
     return ordered, values

@@ -179,10 +179,8 @@ def replace_robot_effects(
     known = [effect.id for effect in robot.catalogue]
     for name in effect_table:
         if find_effect(name, robot.catalogue) is None:
-            raise RobotError(
-                f"{where}: got {name}{suggest_name(name, known)}; expected some of "
-                f"{', '.join(known)}"
-            )
+            got = f"got {name}{suggest_name(name, known)}"
+            raise RobotError(f"{where}: {got}; expected some of {', '.join(known)}")
     return parse_robot_text(replace_effects(robot.text, effect_table), f"{robot.name} with {where}")
 
 
@@ -317,9 +315,8 @@ def replace_home(text: str, stated: Mapping[str, float], home: Mapping[str, floa
     for key in list(table or ()):
         keys = [key.replace(MARK, leg) for leg in legs] if MARK in key else [key]
         values = {n: missing.pop(n) for k in keys if (n := k.removeprefix("q")) in missing}
-        if all(
-            abs(stated.get(n, math.inf) - x) < THRESHOLDS.max_home_change for n, x in values.items()
-        ):
+        changes = [abs(stated.get(name, math.inf) - value) for name, value in values.items()]
+        if all(change < THRESHOLDS.max_home_change for change in changes):
             continue
         entries = {_express_angle(value) for value in values.values()}
         if len(values) == len(keys) and len(entries) == 1:
@@ -369,9 +366,8 @@ def _find_table(document: "TOMLDocument", name: str) -> Any:
     for key, item in document.body:
         if key is not None and key.key == name:
             if key.is_dotted():
-                raise RobotError(
-                    f"the dotted keys of {name} cannot be replaced; write them as a table [{name}]"
-                )
+                todo = f"write them as a table [{name}]"
+                raise RobotError(f"the dotted keys of {name} cannot be replaced; {todo}")
             if not getattr(item, "is_super_table", bool)():
                 return item
     return None
@@ -404,9 +400,8 @@ def _write_entries(text: str, name: str, entries: Mapping[str, Any]) -> str:
     for key in [key for key in entries if key in table and table[key] != entries[key]]:
         _replace_entry(table, key, entries[key])
     new, body = [key for key in entries if key not in table], table.value.body
-    end = next(
-        (k for k, (_, item) in enumerate(body) if hasattr(item, "is_super_table")), len(body)
-    )
+    heads = (k for k, (_, item) in enumerate(body) if hasattr(item, "is_super_table"))
+    end = next(heads, len(body))
     while end and body[end - 1][0] is None:  # blank lines and comments belong to the next table
         end -= 1
     body[end:], rest = [], body[end:]
@@ -444,16 +439,11 @@ def export_effect(robot: Robot, name: str) -> str:
     if name not in names:
         known = find_effect(name)
         why = "every robot may have it" if known else f"no such effect{suggest_name(name, names)}"
-        raise RobotError(
-            f"{name}: {why}; expected one that {robot.name} defines: {join_names(names)}"
-        )
+        expected = f"expected one that {robot.name} defines: {join_names(names)}"
+        raise RobotError(f"{name}: {why}; {expected}")
     definition = tomllib.loads(robot.text)["own_effects"][name]
-    used_values = [
-        at.nonlinear_parameters
-        for use in robot.effects
-        if use.effect == name
-        for at in use.instances
-    ]
+    uses = [at for use in robot.effects if use.effect == name for at in use.instances]
+    used_values = [at.nonlinear_parameters for at in uses]
     shapes = robot.own_effects[names.index(name)].forms[0].nonlinear_parameters
     about = {s.name: _build_grid(s, [at[s.name] for at in used_values]) for s in shapes}
     try:
@@ -522,9 +512,8 @@ def collect_shared_effects(robot: Robot, folder: str | Path) -> SharedEffects:
                 raise place.enter(f"[own_effects.{name}]").make_error(
                     f"defined otherwise in {owner}; rename one of the two"
                 )
-            if lacks := [
-                n for n in sorted(effect.forms[0].other_joint_names) if n[1:] not in joints
-            ]:
+            others_read = sorted(effect.forms[0].other_joint_names)
+            if lacks := [name for name in others_read if name[1:] not in joints]:
                 left_out[name] = f"{path}: it reads {join_names(lacks)}, no joint of {robot.name}"
             elif name not in known:
                 read_own_effects({name: cell}, place, joints, others)
@@ -540,9 +529,5 @@ def collect_shared_effects(robot: Robot, folder: str | Path) -> SharedEffects:
 def _build_law_key(effect: Effect) -> tuple[object, ...]:
     """All that a joint could show; where its shapes are tried first is no part of it."""
     form = effect.forms[0]
-    return (
-        effect.acts,
-        form.columns,
-        form.internal_state,
-        {shape.name for shape in form.nonlinear_parameters},
-    )
+    names = {shape.name for shape in form.nonlinear_parameters}
+    return effect.acts, form.columns, form.internal_state, names

@@ -18,8 +18,8 @@ from modeler.effects import (
     read_definition,
 )
 from modeler.robot.cells import read_number
-from modeler.robot.robot import INERTIAL, EffectInstance, EffectUse, Joint
-from modeler.robot.sections import Coupling, find_joint
+from modeler.robot.robot import INERTIAL, EffectInstance, EffectUse
+from modeler.robot.sections import Coupling, Joints, find_joint
 
 _ID = re.compile(r"[a-z][a-z0-9_]*")
 _WORDS = ("all", "auto", "undo", "rigid_body")  # mean something else where ids stand
@@ -56,9 +56,8 @@ def read_own_effects(
                 f"{quote_value(name)} is {effect.id} of the catalogue, which stays as it is; "
                 "choose another name"
             )
-        taken = collect_parameter_owners((*CATALOGUE, *before, *effects)) | dict.fromkeys(
-            INERTIAL, "the links"
-        )
+        taken = collect_parameter_owners((*CATALOGUE, *before, *effects))
+        taken |= dict.fromkeys(INERTIAL, "the links")
         taken |= dict.fromkeys(_LOGGED, "the logs")
         effects.append(read_definition(name, here, taken, joints=joints))
     return tuple(effects)
@@ -78,7 +77,7 @@ _ZERO = {"t": "t0", "T": "T0"}
 
 def read_effects(
     place: TomlCell,
-    moving: Mapping[str, Joint],
+    moving: Joints,
     coupling: Coupling,
     catalogue: Sequence[Effect],
     platform: Sequence[str] = (),
@@ -104,9 +103,8 @@ def read_effects(
     for name, cell in place.read_table('[effects] viscous = "all"').items():
         effect = _read_effect(name, catalogue, place)
         if effect.id in uses:
-            raise place.make_error(
-                f"{quote_value(name)} is {effect.id}, which stands there already; keep one of them"
-            )
+            what = f"{quote_value(name)} is {effect.id}, which stands there already"
+            raise place.make_error(f"{what}; keep one of them")
         here = place.enter(name, cell)
         if effect.is_coupled and not coupling:
             raise here.make_error(
@@ -169,13 +167,12 @@ def _read_effect(name: str, catalogue: Sequence[Effect], place: TomlCell) -> Eff
 
 
 def _read_effect_joints(
-    effect: Effect, moving: Mapping[str, Joint], coupling: Coupling, place: TomlCell
+    effect: Effect, moving: Joints, coupling: Coupling, place: TomlCell
 ) -> tuple[str, ...]:
     passive = effect.acts is EffectTarget.PASSIVE
     if passive and all(joint.actuated for joint in moving.values()):
-        raise place.make_error(
-            "acts on joints without motor, and every joint has one; leave it out"
-        )
+        what = "acts on joints without motor, and every joint has one"
+        raise place.make_error(f"{what}; leave it out")
     if place.value == "all":
         return tuple(
             name
@@ -190,9 +187,8 @@ def _read_effect_joints(
             raise place.make_error(f"joint {quote_value(name)} stands there twice; name it once")
         _check_coupled(effect, name, coupling, place)
         if passive and moving[name].actuated:
-            raise place.make_error(
-                f"joint {quote_value(name)} has a motor; write viscous and coulomb for it"
-            )
+            what = f"joint {quote_value(name)} has a motor"
+            raise place.make_error(f"{what}; write viscous and coulomb for it")
     return tuple(name for name in moving if name in named)
 
 
@@ -205,14 +201,13 @@ def _check_coupled(effect: Effect, name: str, coupling: Coupling, place: TomlCel
 
 
 def _read_effect_instances(
-    effect: Effect, moving: Mapping[str, Joint], coupling: Coupling, place: TomlCell
+    effect: Effect, moving: Joints, coupling: Coupling, place: TomlCell
 ) -> EffectUse:
     instances: list[EffectInstance] = []
     for entry in place.value:
         if not isinstance(entry, dict) or "joint" not in entry:
-            raise place.make_error(
-                f"got {quote_value(entry)}; expected tables, as in {_format_example(effect)}"
-            )
+            example = _format_example(effect)
+            raise place.make_error(f"got {quote_value(entry)}; expected tables, as in {example}")
         name = find_joint(entry["joint"], moving, place).name
         _check_coupled(effect, name, coupling, place)
         stated_values = {key: value for key, value in entry.items() if key != "joint"}
@@ -221,9 +216,8 @@ def _read_effect_instances(
         shapes = {s.name: s.grid[0] for s in form.nonlinear_parameters if len(s.grid) == 1}
         for key, parameter_value in stated_values.items():
             at = place.enter(key, parameter_value)  # "30 deg" of an angle
-            shapes[key] = (
-                read_number(at, {}) if isinstance(parameter_value, str) else at.read_number("0.1")
-            )
+            is_text = isinstance(parameter_value, str)
+            shapes[key] = read_number(at, {}) if is_text else at.read_number("0.1")
         here = place.enter(f"joint {quote_value(name)}")
         for (
             shape
@@ -235,9 +229,8 @@ def _read_effect_instances(
                     f"got {parameter_value:g} ({shape.meaning}); expected a number above 0"
                 )
         check_finite(form, here, shapes)
-        if EffectInstance(name, number, shapes) in [
-            dataclasses.replace(other, label="") for other in instances
-        ]:
+        unlabelled = [dataclasses.replace(other, label="") for other in instances]
+        if EffectInstance(name, number, shapes) in unlabelled:
             raise here.make_error(
                 f"{join_names(f'{k} = {v:g}' for k, v in shapes.items())} stands twice; remove one"
             )

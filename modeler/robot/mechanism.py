@@ -13,6 +13,7 @@ from typing import Any
 from modeler.core.expression import Expression, format_decimal
 from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
 from modeler.robot.cells import (
+    Values,
     check_count,
     check_name_length,
     normalise_row_name,
@@ -21,7 +22,7 @@ from modeler.robot.cells import (
     recognise_angle_terms,
 )
 from modeler.robot.robot import INERTIAL, LOOP_KINDS, Joint, JointKind, Loop, Robot, SharedParameter
-from modeler.robot.sections import find_joint
+from modeler.robot.sections import Joints, find_joint
 from modeler.robot.table import HOME, ROW_NAME, Row, RowPlace, Rows, read_row_kind
 from modeler.robot.thresholds import THRESHOLDS
 
@@ -111,9 +112,7 @@ def _suggest_joint(kind: str) -> str | None:
     return next((suggestion for suggestion, names in advice.items() if name in names), None)
 
 
-def read_home(
-    place: TomlCell, moving: Mapping[str, Joint], symbols: Mapping[str, float]
-) -> dict[str, float]:
+def read_home(place: TomlCell, moving: Joints, symbols: Values) -> dict[str, float]:
     """Returns the posture from which loops are closed, by row: `[home] q2 = "-pi/2"`.
 
     Raises:
@@ -128,10 +127,8 @@ def read_home(
                 f"{join_names(list(variables)[:12])}"
             )
         angle = read_number(here, symbols, moving[variables[key]].unit)
-        if (
-            moving[variables[key]].is_revolute
-            and abs(angle) > 2 * math.pi + THRESHOLDS.max_full_turn_excess
-        ):
+        most = 2 * math.pi + THRESHOLDS.max_full_turn_excess
+        if moving[variables[key]].is_revolute and abs(angle) > most:
             raise here.make_error(
                 f"got {angle:g} rad, which is more than a turn; angles are in radians: write "
                 f'"{angle:g} deg" for degrees'
@@ -150,7 +147,7 @@ def read_relations(
     place: TomlCell,
     driven: Mapping[str, str],
     rows: Rows,
-    symbols: Mapping[str, float],
+    symbols: Values,
     rounded: dict[str, str],
     readings: list[str],
 ) -> dict[str, Expression]:
@@ -222,9 +219,8 @@ def read_relations(
         order.prepare()
     except CycleError as error:
         circle = ", ".join(sorted(set(error.args[1])))
-        raise place.make_error(
-            f"{circle} follow each other in a circle; leave one of them free"
-        ) from None
+        what = f"{circle} follow each other in a circle; leave one of them free"
+        raise place.make_error(what) from None
     return relations
 
 
@@ -286,9 +282,8 @@ def read_leg_names(place: TomlCell) -> tuple[str, ...]:
                 '"3"]'
             )
         if legs.count(leg) > 1:
-            raise place.make_error(
-                f"{quote_value(leg)} stands there twice; give each leg its own name"
-            )
+            what = f"{quote_value(leg)} stands there twice"
+            raise place.make_error(f"{what}; give each leg its own name")
     if not legs:
         raise place.make_error('got no legs; expected their names, as in ["1", "2", "3"]')
     return tuple(legs)
@@ -302,9 +297,8 @@ def _expand_value(value: Any, legs: Sequence[str], place: TomlCell) -> Any:
                 _require_legs(legs, key, place)
                 expanded_table |= {_fill_mark(key, leg): _fill_mark(entry, leg) for leg in legs}
             else:
-                expanded_table[_check_marks(key, place)] = _expand_value(
-                    entry, legs, place.enter(key)
-                )
+                expanded = _expand_value(entry, legs, place.enter(key))
+                expanded_table[_check_marks(key, place)] = expanded
         return expanded_table
     if isinstance(value, list):
         return _expand_list(value, legs, place)
@@ -460,9 +454,7 @@ def build_motor_rows(place: TomlCell, rows: Rows) -> Rows:
     return tuple(new_rows)
 
 
-def read_motors(
-    place: TomlCell, rows: Rows, symbols: Mapping[str, float]
-) -> tuple[Ratios, dict[str, str]]:
+def read_motors(place: TomlCell, rows: Rows, symbols: Values) -> tuple[Ratios, dict[str, str]]:
     """Returns G, and the relations of the joints to the motors, as cells of `[relations]`.
 
     Args:
@@ -483,9 +475,8 @@ def read_motors(
         expression = here.read_expression()
         only = ": the motor reads 0 where the joints do"
         form = read_joint_sum(expression, symbols, variables, here, "q2 - 0.4*q1", only)
-        ratios[motor] = {
-            variables[name]: _recover_fraction(c) for name, c in form.coefficients.items()
-        }
+        coefficients = form.coefficients.items()
+        ratios[motor] = {variables[name]: _recover_fraction(c) for name, c in coefficients}
     joints = [name for name in names if any(name in row for row in ratios.values())]
     if len(ratios) != len(joints):
         raise place.make_error(
@@ -523,10 +514,10 @@ def compute_joint_directions(robot: Robot) -> dict[str, tuple[float, ...]]:
     if not robot.motors:
         return {name: tuple(float(name == other) for other in coordinates) for name in coordinates}
     joints = [j.name for j in robot.joints if any(j.name in row for row in robot.motors.values())]
-    return {
-        joint: tuple(robot.motors[motor].get(joint, 0.0) for motor in coordinates)
-        for joint in joints
+    rows = {
+        joint: [robot.motors[motor].get(joint, 0.0) for motor in coordinates] for joint in joints
     }
+    return {joint: tuple(row) for joint, row in rows.items()}
 
 
 def _recover_fraction(value: float) -> Fraction:
@@ -597,7 +588,7 @@ def _format_ratios(ratios: Ratios) -> str:
 # Links that have not all ten parameters, and parameters that similar legs share.
 
 
-def read_links(place: TomlCell, moving: Mapping[str, Joint]) -> dict[str, tuple[str, ...]]:
+def read_links(place: TomlCell, moving: Joints) -> dict[str, tuple[str, ...]]:
     """Returns inertial parameters of the rows that have not all ten: `[links] 5 = []`, `P = ["M"]`.
 
     Raises:
@@ -609,9 +600,8 @@ def read_links(place: TomlCell, moving: Mapping[str, Joint]) -> dict[str, tuple[
         entries = here.read_list('["M"]')
         for entry in entries:
             if entry not in INERTIAL:
-                raise here.make_error(
-                    f"got {quote_value(entry)}; expected some of {join_names(INERTIAL)}"
-                )
+                expected = f"expected some of {join_names(INERTIAL)}"
+                raise here.make_error(f"got {quote_value(entry)}; {expected}")
         links[name] = tuple(prefix for prefix in INERTIAL if prefix in entries)
     return links
 

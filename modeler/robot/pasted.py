@@ -200,9 +200,7 @@ def _build_table(
 ) -> PastedTable:
     khalil = {letter: column for column, letter in CONVENTIONS[convention].items()}
     kinds = [khalil[column] for column in columns]
-    rows = [
-        {kind: _clean_cell(cell) for kind, cell in zip(kinds, row, strict=True)} for row in body
-    ]
+    rows = [dict(zip(kinds, map(_clean_cell, row), strict=True)) for row in body]
     for number, row in enumerate(rows, start=1):
         row["j"] = re.sub(r"\W|_|^(joint|link|axis)", "", row.get("j", "").lower()) or str(number)
         row["sigma"] = _SIGMAS.get(row.get("sigma", "").lower(), row.get("sigma", ""))
@@ -222,9 +220,8 @@ def _build_table(
     known = {*FUNCTIONS, "pi", "deg", "mm", "cm", "m", "in", *names, *(f"q{n}" for n in names)}
     cell_names = (n for row in cells for cell in row[1:] for n in re.findall(r"[A-Za-z]\w*", cell))
     symbols = tuple(dict.fromkeys(name for name in cell_names if name not in known))
-    return PastedTable(
-        convention, tuple(letters[c] for c in used), cells, symbols, tuple(notes), headed
-    )
+    columns = [letters[column] for column in used]
+    return PastedTable(convention, tuple(columns), cells, symbols, tuple(notes), headed)
 
 
 def _clean_cell(cell: str) -> str:

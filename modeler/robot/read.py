@@ -18,6 +18,7 @@ from modeler.core.files import DestinationKind, read_text, resolve_destination, 
 from modeler.core.json import TomlError, parse_toml
 from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
 from modeler.robot.cells import (
+    Values,
     check_name_length,
     choose_robot_name,
     describe_rounded_angles,
@@ -39,9 +40,10 @@ from modeler.robot.mechanism import (
     read_relations,
     read_shared,
 )
-from modeler.robot.robot import Joint, Robot
+from modeler.robot.robot import Robot
 from modeler.robot.robot_text import align_cells
 from modeler.robot.sections import (
+    Joints,
     read_capsules,
     read_coupling,
     read_diagnose,
@@ -67,39 +69,11 @@ from modeler.robot.table import (
 )
 from modeler.robot.thresholds import THRESHOLDS
 
-_KEYS = [
-    "name",
-    "title",
-    "notes",
-    "gravity",
-    "priority",
-    "legs",
-    "shared",
-    "symbols",
-    "mdh",
-    "relations",
-    "platform",
-    "loops",
-    "home",
-    "frames",
-    "tool",
-    "links",
-    "effects",
-    "own_effects",
-    "coupling",
-    "motors",
-    "parameters",
-    "reference",
-    "drive_gains",
-    "drives",
-    "limits",
-    "physical",
-    "terms",
-    "log",
-    "fit",
-    "diagnose",
-    "capsules",
-]
+_KEYS = """
+    name title notes gravity priority legs shared symbols mdh relations platform loops home frames
+    tool links effects own_effects coupling motors parameters reference drive_gains drives limits
+    physical terms log fit diagnose capsules
+"""
 _NEEDED = {
     "name": 'write a first line such as name = "arm"',
     "gravity": 'write the acceleration of gravity in frame 0, such as [0, 0, "-g"] with g among '
@@ -146,9 +120,8 @@ def read_file_text(path: Path) -> str:
         if path.exists() and not path.is_dir():
             return read_text(path)
     except UnicodeDecodeError as error:
-        raise RobotError(
-            f"{path}: byte {error.start} is not UTF-8 text; save the file as UTF-8"
-        ) from None
+        what = f"byte {error.start} is not UTF-8 text; save the file as UTF-8"
+        raise RobotError(f"{path}: {what}") from None
     except OSError as error:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     raise RobotError(_describe_missing_file(path))
@@ -178,9 +151,8 @@ def parse_robot_text(text: str, where: str) -> Robot:
     symbols, values = read_symbols(locate_section("symbols", {}), variables)
     motors, driven = read_motors(locate_section("motors", {}), rows, values)
     rounded, readings = dict[str, str](), list[str]()
-    relations = read_relations(
-        locate_section("relations", {}), driven, rows, values, rounded, readings
-    )
+    here = locate_section("relations", {})
+    relations = read_relations(here, driven, rows, values, rounded, readings)
     title = place.enter("title", document.get("title", document["name"])).read_text('"my robot"')
     if len(title.splitlines()) > 1:
         raise place.enter("title", title).make_mismatch("one line; put the rest into notes")
@@ -207,7 +179,7 @@ def parse_robot_text(text: str, where: str) -> Robot:
 
 
 def _read_tables(
-    robot: Robot, document: Mapping[str, Any], values: Mapping[str, float], place: TomlCell
+    robot: Robot, document: Mapping[str, Any], values: Values, place: TomlCell
 ) -> Robot:
     """The robot with what the tables say that name its joints."""
 
@@ -218,9 +190,8 @@ def _read_tables(
     coupling = read_coupling(locate_section("coupling"), moving, values)
     own_effects = read_own_effects(document.get("own_effects", {}), place, moving)
     robot = dataclasses.replace(robot, own_effects=own_effects)
-    effects = read_effects(
-        locate_section("effects"), moving, coupling, robot.catalogue, robot.platform
-    )
+    here = locate_section("effects")
+    effects = read_effects(here, moving, coupling, robot.catalogue, robot.platform)
     links: dict[str, tuple[str, ...]] = dict.fromkeys(robot.platform[:-1], ())
     links |= dict.fromkeys(robot.motors, ())
     links |= read_links(locate_section("links"), moving)
@@ -231,9 +202,8 @@ def _read_tables(
     known = merge_shared_names(parameter_names, shared)
     loops = read_loops(place.enter("[loops]", document.get("loops")), robot.joints)
     if loops and not any(joint.actuated for joint in robot.free_joints):
-        raise place.enter("[loops]").make_error(
-            "no joint is actuated; write mu 1 in the rows that have a motor"
-        )
+        what = "no joint is actuated; write mu 1 in the rows that have a motor"
+        raise place.enter("[loops]").make_error(what)
     home = read_home(locate_section("home"), moving, values)
     for joint in robot.moving_joints:
         for effect, _, instance in robot.find_joint_effects(joint.name):
@@ -243,10 +213,9 @@ def _read_tables(
                     "parameters there, as `modeler add` does"
                 )
     standard = "names of standard parameters, such as ZZ1"
-    names = (
-        f"names such as {join_names(known[:12])} (friction and rotors only where [effects] "
-        "has them)"
-    )
+    rows = [joint.name for joint in robot.joints]
+    names = f"names such as {join_names(known[:12])}"
+    names += " (friction and rotors only where [effects] has them)"
     parameters, uncertainty = read_parameters(locate_section("parameters"), known, names)
     readings = [*robot.readings]
     drive_gains = read_drive_gains(locate_section("drive_gains"), moving)
@@ -272,23 +241,18 @@ def _read_tables(
         log=locate_section("log").read_table('"q<j>" = "position_{j} [deg]"'),
         fit=read_fit(locate_section("fit")),
         diagnose=read_diagnose(locate_section("diagnose")),
-        frames=read_frames(
-            place.enter("[frames]", document.get("frames")), [j.name for j in robot.joints], values
-        ),
+        frames=read_frames(place.enter("[frames]", document.get("frames")), rows, values),
     )
     tool = read_tool(place.enter("[tool]", document.get("tool")), robot, values)
-    capsules, planes = read_capsules(
-        locate_section("capsules"), [j.name for j in robot.joints], values
-    )
+    capsules, planes = read_capsules(locate_section("capsules"), rows, values)
     return dataclasses.replace(robot, tool=tool, capsules=capsules, planes=planes)
 
 
 def _describe_missing_file(path: Path) -> str:
     names = list_builtin_robots()
     if path.is_dir():
-        return (
-            f"{path}: is a folder; expected a robot file or a built-in robot ({join_names(names)})"
-        )
+        expected = f"expected a robot file or a built-in robot ({join_names(names)})"
+        return f"{path}: is a folder; {expected}"
     if path.suffix or len(path.parts) > 1:
         return (
             f"{path}: there is no such file{suggest_name(path.stem, names)}; expected a robot file "
@@ -328,15 +292,14 @@ def parse_toml_document(text: str, place: TomlCell) -> dict[str, Any]:
 
 def _read_document(text: str, place: TomlCell) -> dict[str, Any]:
     document = parse_toml_document(text, place)
-    place.with_value(document).read_checked_table(_KEYS, "")
+    place.with_value(document).read_checked_table(_KEYS.split(), "")
     for key, advice in _NEEDED.items():
         if key not in document:
             raise place.enter(key).make_error(f"is missing; {advice}")
     name = place.enter("name", document["name"])
     if not isinstance(name.value, str) or not _ROBOT_NAME.fullmatch(name.value):
-        raise name.make_mismatch(
-            'letters, digits, - and _ such as "arm-2" (it becomes part of names in the C code)'
-        )
+        expected = 'letters, digits, - and _ such as "arm-2"'
+        raise name.make_mismatch(f"{expected} (it becomes part of names in the C code)")
     check_name_length(name.value, name)
     return document
 
@@ -360,9 +323,7 @@ def _collect_joint_columns(rows: Rows) -> dict[str, str]:
     return columns
 
 
-def _collect_parameter_names(
-    robot: Robot, moving: Mapping[str, Joint], place: TomlCell
-) -> tuple[str, ...]:
+def _collect_parameter_names(robot: Robot, moving: Joints, place: TomlCell) -> tuple[str, ...]:
     """Names of the standard parameters.
 
     Raises:
@@ -373,9 +334,8 @@ def _collect_parameter_names(
         prefixes = list(robot.get_inertial_prefixes(name))
         joint_parameters = [f"{prefix}{name}" for prefix in prefixes]
         for _, form, instance in robot.find_joint_effects(name):
-            joint_parameters += [
-                f"{column.prefix}{name}{instance.label}" for column in form.columns
-            ]
+            columns = [column.prefix for column in form.columns]
+            joint_parameters += [f"{prefix}{name}{instance.label}" for prefix in columns]
         for parameter in joint_parameters:
             if parameter in robot.symbols:
                 raise place.enter("[symbols]").make_error(
@@ -401,10 +361,8 @@ def _read_priority(place: TomlCell, known: tuple[str, ...], robot: Robot) -> tup
     """The patterns that match a parameter; those of effects that the robot lacks are left out."""
     patterns = place.read_list('["ZZ*", "Ia?"]')
     prefixes = [c.prefix for e in robot.catalogue for form in e.forms for c in form.columns]
-    possible = [
-        *known,
-        *(prefix + joint.name for prefix in prefixes for joint in robot.moving_joints),
-    ]
+    rows = [joint.name for joint in robot.moving_joints]
+    possible = [*known, *(prefix + row for prefix in prefixes for row in rows)]
     for entry in patterns:
         pattern = place.with_value(entry).read_text('"ZZ*"')
         if not any(fnmatch.fnmatchcase(name, pattern) for name in possible):
@@ -462,9 +420,8 @@ def new_robot(
 def check_new_robot(place: Path, force: bool) -> None:
     """Refuses what `new_robot` would: another ending, or a file that is there."""
     if place.suffix.lower() != ".toml":
-        raise DataError(
-            f"{place}: got {place.suffix or 'no ending'}; expected a name such as arm.toml"
-        )
+        ending = place.suffix or "no ending"
+        raise DataError(f"{place}: got {ending}; expected a name such as arm.toml")
     if resolve_destination(place).kind is DestinationKind.FILE and not force:
         raise DataError(
             f"{place}: there is such a file; choose another name, or write over it with --force "
@@ -502,9 +459,8 @@ def fill_template(
             "has its own; leave them out, or take the template serial"
         )
     values = {"name": name, "title": f"{name}, {_TITLES[template]}"}
-    return string.Template(read_template(template)).substitute(
-        values | _build_serial_values(kinds, convention)
-    )
+    values |= _build_serial_values(kinds, convention)
+    return string.Template(read_template(template)).substitute(values)
 
 
 def _build_serial_values(kinds: str, convention: str) -> dict[str, str]:

@@ -345,13 +345,11 @@ class Robot(Result):
     @property
     def has_binary_fractions(self) -> bool:
         """Returns True if lengths and angles of the file hold decimals such as 0.5 or 0.75."""
-        cells = [
-            getattr(j, c) for j in self.joints for c in ("gamma", "b", "alpha", "d", "theta", "r")
-        ]
+        columns = ("gamma", "b", "alpha", "d", "theta", "r")
+        cells = [getattr(joint, column) for joint in self.joints for column in columns]
         constant_symbols = (e for e in self.symbols.values() if e.names or e.uses_pi)
-        parts = (
-            x.denominator for e in (*cells, *self.gravity, *constant_symbols) for x in e.decimals
-        )
+        expressions = (*cells, *self.gravity, *constant_symbols)
+        parts = (x.denominator for expression in expressions for x in expression.decimals)
         return any(n > 1 and n & (n - 1) == 0 for n in parts)
 
     @property

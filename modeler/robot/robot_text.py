@@ -96,10 +96,8 @@ def format_number(value: float, scale: float = 0.0) -> str:
 def align_cells(cells: Sequence[Sequence[str]]) -> list[str]:
     """Returns rows of a table, cells below each other."""
     widths = [max(map(len, column)) + 2 for column in zip(*cells, strict=True)]
-    lines = [
-        "".join(f"{cell},".ljust(width) for cell, width in zip(row, widths, strict=True))
-        for row in cells
-    ]
+    padded = [zip(row, widths, strict=True) for row in cells]
+    lines = ["".join(f"{cell},".ljust(width) for cell, width in row) for row in padded]
     return [line.rstrip().removesuffix(",") for line in lines]
 
 
@@ -285,10 +283,8 @@ def replace_table(
     table: Any = document["mdh"]
     table.pop("convention", None)
     stated = {"convention": convention} if convention != "khalil" else {}
-    for key, entry in {
-        **tomlkit.parse("\n".join(format_columns_and_rows(columns, cells))),
-        **stated,
-    }.items():
+    written = tomlkit.parse("\n".join(format_columns_and_rows(columns, cells)))
+    for key, entry in {**written, **stated}.items():
         table[key] = entry
     return document.as_string()
 

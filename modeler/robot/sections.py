@@ -8,18 +8,20 @@ from modeler.core.choices import GAIN_METHOD, TWO_STEPS, Derivatives, Method
 from modeler.core.expression import Expression
 from modeler.core.manifest import DriveSpec
 from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
-from modeler.robot.cells import normalise_row_name, read_joint_sum, read_number
+from modeler.robot.cells import Values, normalise_row_name, read_joint_sum, read_number
 from modeler.robot.robot import Joint, Limits, LinkCapsule, LinkFrame, PhysicalLink, Robot
 from modeler.robot.thresholds import THRESHOLDS
 
 Coupling = dict[str, dict[str, float]]
+Joints = Mapping[str, Joint]
+"""Moving joints by name."""
 _Three = tuple[Expression, Expression, Expression]
 
 INERTIAL_UNCERTAINTY = "inertial"
 """What stands for every body in `[parameters.uncertainty]`."""
 
 
-def find_joint(name: Any, moving: Mapping[str, Joint], place: TomlCell) -> Joint:
+def find_joint(name: Any, moving: Joints, place: TomlCell) -> Joint:
     """Returns the moving joint of that name.
 
     Raises:
@@ -35,7 +37,7 @@ def find_joint(name: Any, moving: Mapping[str, Joint], place: TomlCell) -> Joint
 
 
 def _iterate_joints(
-    place: TomlCell, moving: Mapping[str, Joint], example: str
+    place: TomlCell, moving: Joints, example: str
 ) -> Iterator[tuple[Joint, TomlCell]]:
     """The joints that a table names, each with its cell.
 
@@ -46,9 +48,7 @@ def _iterate_joints(
         yield find_joint(name, moving, here), here
 
 
-def read_coupling(
-    place: TomlCell, moving: Mapping[str, Joint], symbols: Mapping[str, float]
-) -> Coupling:
+def read_coupling(place: TomlCell, moving: Joints, symbols: Values) -> Coupling:
     """Returns motors that turn with several joints: {joint of the motor: {joint: coefficient}}.
 
     Raises:
@@ -131,9 +131,8 @@ def read_parameters(
         here = inner.enter(name, cell)
         uncertainty[name] = here.read_number("0.1")
         if uncertainty[name] <= 0.0:
-            raise here.make_mismatch(
-                "a standard deviation above 0; a value that is certain is held"
-            )
+            expected = "a standard deviation above 0; a value that is certain is held"
+            raise here.make_mismatch(expected)
         if name != INERTIAL_UNCERTAINTY:
             _check_stated(name, values, known, here)
         elif uncertainty[name] > 1.0:
@@ -152,9 +151,7 @@ def read_parameters(
     return values, uncertainty | dict.fromkeys(held, 0.0)
 
 
-def _check_stated(
-    name: str, values: Mapping[str, float], known: Collection[str], place: TomlCell
-) -> None:
+def _check_stated(name: str, values: Values, known: Collection[str], place: TomlCell) -> None:
     """Refuse a name without a value."""
     if name not in known:
         raise place.make_error(
@@ -166,7 +163,7 @@ def _check_stated(
         raise place.make_error(f"{name} has no value; write {name} = ... in [parameters]")
 
 
-def read_drive_gains(place: TomlCell, moving: Mapping[str, Joint]) -> dict[str, float]:
+def read_drive_gains(place: TomlCell, moving: Joints) -> dict[str, float]:
     """Returns joint torque per unit of the logged current, by joint.
 
     Raises:
@@ -188,11 +185,12 @@ def _read_gain(place: TomlCell) -> float:
     return gain
 
 
+_DRIVE_KEYS = ("voltage", "resistance", "k_e", "gain")
 _DRIVE = "1 = {voltage = 12, resistance = 4.4, k_e = 2.4, gain = 1.1}"
 
 
 def read_drives(
-    place: TomlCell, moving: Mapping[str, Joint], gains: Mapping[str, float], readings: list[str]
+    place: TomlCell, moving: Joints, gains: Values, readings: list[str]
 ) -> tuple[dict[str, float], dict[str, DriveSpec]]:
     """Returns gains and voltage models: `[drives]`.
 
@@ -211,9 +209,7 @@ def read_drives(
     """
     all_gains, drives = dict(gains), dict[str, DriveSpec]()
     for joint, here in _iterate_joints(place, moving, f"[drives] {_DRIVE}"):
-        table = here.read_checked_table(
-            ("voltage", "resistance", "k_e", "gain"), f"[drives] {_DRIVE}"
-        )
+        table = here.read_checked_table(_DRIVE_KEYS, f"[drives] {_DRIVE}")
         numbers = {key: here.enter(key, value).read_number("1.1") for key, value in table.items()}
         if joint.name in gains:
             raise here.make_error(
@@ -233,9 +229,8 @@ def read_drives(
                 raise here.enter(key, table.get(key, 0)).make_mismatch(
                     f"a number above 0, as in {_DRIVE}; a drive that logs currents has gain alone"
                 )
-        drive = drives[joint.name] = DriveSpec(
-            numbers["voltage"], numbers["resistance"], numbers.get("k_e", 0.0)
-        )
+        voltage, resistance, k_e = (numbers.get(key, 0.0) for key in _DRIVE_KEYS[:3])
+        drive = drives[joint.name] = DriveSpec(voltage, resistance, k_e)
         if drive.k_e * gain < 0.0:
             raise here.enter("k_e", table["k_e"]).make_mismatch(
                 f"the sign of gain ({gain:g}): what a motor induces brakes it"
@@ -302,9 +297,7 @@ def read_diagnose(place: TomlCell) -> dict[str, Any]:
     return table
 
 
-def read_limits(
-    place: TomlCell, moving: Mapping[str, Joint], symbols: Mapping[str, float]
-) -> dict[str, Limits]:
+def read_limits(place: TomlCell, moving: Joints, symbols: Values) -> dict[str, Limits]:
     """Returns range of motion by joint.
 
     Raises:
@@ -318,18 +311,16 @@ def read_limits(
             for k, e in enumerate(cells, 1)
         )
         if lower >= upper:
-            raise here.make_error(
-                f"got lower {lower:g} and upper {upper:g} {joint.unit}; expected lower < upper"
-            )
+            got = f"got lower {lower:g} and upper {upper:g} {joint.unit}"
+            raise here.make_error(f"{got}; expected lower < upper")
         if speed <= 0.0 or acceleration <= 0.0:
-            raise here.make_error(
-                f"got speed {speed:g} and acceleration {acceleration:g}; expected both positive"
-            )
+            got = f"got speed {speed:g} and acceleration {acceleration:g}"
+            raise here.make_error(f"{got}; expected both positive")
         limits[joint.name] = Limits(lower, upper, speed, acceleration)
     return limits
 
 
-def read_physical(place: TomlCell, moving: Mapping[str, Joint]) -> dict[str, PhysicalLink]:
+def read_physical(place: TomlCell, moving: Joints) -> dict[str, PhysicalLink]:
     """Returns the letters of a paper for the links, by joint; letters need not be declared.
 
     Raises:
@@ -367,9 +358,7 @@ FRAME_COLUMNS = ("link", "row", "joint", "x", "y", "z", "roll", "pitch", "yaw")
 _FRAMES = 'columns = ["link", "row", "x"], rows = [["hand", "6", 0.1]]'
 
 
-def read_frames(
-    place: TomlCell, rows: Collection[str], symbols: Mapping[str, float]
-) -> dict[str, LinkFrame]:
+def read_frames(place: TomlCell, rows: Collection[str], symbols: Values) -> dict[str, LinkFrame]:
     """Returns links of another program's file on the rows of the table: `[frames]`.
 
     Raises:
@@ -377,9 +366,8 @@ def read_frames(
     """
     if place.value is None:
         return {}
-    table = place.read_checked_table(
-        ("columns", "rows"), f"[frames] {_FRAMES}", "", f"write {_FRAMES}"
-    )
+    keys, advice = ("columns", "rows"), f"write {_FRAMES}"
+    table = place.read_checked_table(keys, f"[frames] {_FRAMES}", missing=advice)
     frames: dict[str, LinkFrame] = {}
     lines = _iterate_rows(place, table, ("link", "row"), FRAME_COLUMNS, _FRAMES)
     for k, (line, cells) in enumerate(lines, start=1):
@@ -428,7 +416,7 @@ _CAPSULES = 'columns = ["row", "radius"], rows = [["1", 0.05]]'
 
 
 def read_capsules(
-    place: TomlCell, rows: Collection[str], symbols: Mapping[str, float]
+    place: TomlCell, rows: Collection[str], symbols: Values
 ) -> tuple[tuple[LinkCapsule, ...], dict[str, tuple[float, ...]]]:
     """Returns what links fill, and planes of the surroundings: `[capsules]`.
 
@@ -442,25 +430,19 @@ def read_capsules(
         four = here.read_list("[x, y, z, offset], the normal that points to where is room", 4)
         planes[name] = tuple(read_number(here.with_value(cell), symbols, "m") for cell in four)
         if not any(planes[name][:3]):
-            raise here.make_error(
-                "got the normal (0, 0, 0); expected a direction, such as [0, 0, 1, 0]"
-            )
+            expected = "expected a direction, such as [0, 0, 1, 0]"
+            raise here.make_error(f"got the normal (0, 0, 0); {expected}")
     stated_table = place.with_value(table)
     if table:
-        stated_table.read_checked_table(
-            ("columns", "rows"), f"[capsules] {_CAPSULES}", "", f"write {_CAPSULES}"
-        )
+        keys, advice = ("columns", "rows"), f"write {_CAPSULES}"
+        stated_table.read_checked_table(keys, f"[capsules] {_CAPSULES}", missing=advice)
     known = ("row", "radius", *_ENDS)
     for line, cells in _iterate_rows(place, table, known[:2], known, _CAPSULES) if table else ():
         row = _read_carrier_row(cells.pop("row"), rows, line)
-        sizes = {
-            name: read_number(line.enter(f"column {name}", cell), symbols, "m")
-            for name, cell in cells.items()
-        }
+        places = {name: line.enter(f"column {name}", cell) for name, cell in cells.items()}
+        sizes = {name: read_number(here, symbols, "m") for name, here in places.items()}
         if sizes["radius"] <= 0.0:
-            raise line.enter("column radius", cells["radius"]).make_mismatch(
-                "a length above 0, in m"
-            )
+            raise places["radius"].make_mismatch("a length above 0, in m")
         ends = [sizes.get(name, 0.0) for name in _ENDS]
         both = (tuple(ends[:3]), tuple(ends[3:])) if len(sizes) > 1 else None
         capsules.append(LinkCapsule(row, sizes["radius"], both))
@@ -468,7 +450,7 @@ def read_capsules(
 
 
 def _read_pose_cells(
-    place: TomlCell, kind: str, cells: Mapping[str, Any], symbols: Mapping[str, float]
+    place: TomlCell, kind: str, cells: Mapping[str, Any], symbols: Values
 ) -> tuple[_Three, _Three]:
     """Position x, y, z and angles roll, pitch, yaw; what is left out is 0."""
     numbers = []
@@ -483,7 +465,7 @@ def _read_pose_cells(
 _TOOL = '[tool] with x, y, z, roll, pitch, yaw, and row = "6" or link = "flange"'
 
 
-def read_tool(place: TomlCell, robot: Robot, symbols: Mapping[str, float]) -> LinkFrame | None:
+def read_tool(place: TomlCell, robot: Robot, symbols: Values) -> LinkFrame | None:
     """Returns the frame whose motion a controller commands: `[tool]`.
 
     It stands on a row of the table, or on a link of `[frames]`, in whose frame it is placed; on the
@@ -515,9 +497,8 @@ def read_tool(place: TomlCell, robot: Robot, symbols: Mapping[str, float]) -> Li
     rows = [joint.name for joint in robot.joints]
     if normalise_row_name(row) not in rows:
         raise place.enter("row", row).make_mismatch(f"the name of a row{suggest_name(row, rows)}")
-    return LinkFrame(
-        normalise_row_name(row), "", *_read_pose_cells(place, "", table, symbols), on=under
-    )
+    pose = _read_pose_cells(place, "", table, symbols)
+    return LinkFrame(normalise_row_name(row), "", *pose, on=under)
 
 
 def _find_ends(robot: Robot) -> list[str]:

@@ -10,6 +10,7 @@ from modeler.core.expression import Expression, parse_expression
 from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
 from modeler.robot.cells import (
     LARGEST_LENGTH,
+    Values,
     check_count,
     check_declared,
     check_name_length,
@@ -92,9 +93,8 @@ def read_convention(table: TomlCell, document: Mapping[str, Any]) -> str:
     Raises:
         RobotError: nobody's, or a classical one of a robot that is not serial.
     """
-    place = table.enter(
-        "convention", table.read_table(format_table_example("khalil")).get("convention", "khalil")
-    )
+    stated = table.read_table(format_table_example("khalil"))
+    place = table.enter("convention", stated.get("convention", "khalil"))
     if place.value not in list(CONVENTIONS):
         names = join_names(f'"{name}"' for name in CONVENTIONS)
         raise place.make_mismatch(f"one of {names}{suggest_name(place.value, CONVENTIONS)}")
@@ -127,9 +127,8 @@ def read_khalil_columns(place: TomlCell, convention: str) -> list[str]:
             elif convention == "classical" and column in ("parent", "gamma", "b"):
                 advice = f"; {_SERIAL}"
             elif convention != "khalil" and column == "r":
-                advice = (
-                    f'; r of Khalil is d in this table, and d is a: convention = "{convention}"'
-                )
+                advice = "; r of Khalil is d in this table, and d is a: "
+                advice += f'convention = "{convention}"'
             raise place.make_error(
                 f"entry {number} is {quote_value(column)}{suggest_name(column, ours)}; expected "
                 f"names among {join_names(ours)}{advice}"
@@ -137,9 +136,8 @@ def read_khalil_columns(place: TomlCell, convention: str) -> list[str]:
         if column in columns[: number - 1]:
             raise place.make_error(f"{quote_value(column)} stands twice; remove one and its cells")
     if "j" not in columns:
-        raise place.make_error(
-            f'column "j" (row names) is missing, got {quote_value(columns)}; add it'
-        )
+        got = f'column "j" (row names) is missing, got {quote_value(columns)}'
+        raise place.make_error(f"{got}; add it")
     return [ours[column] for column in columns]
 
 
@@ -296,9 +294,8 @@ def build_written_table(robot: Robot) -> WrittenTable:
         cells = {}
         for column in (c for c in letters if c in GEOMETRY):
             carried = robot.convention == "classical" and column in ("alpha", "d")
-            cells[letters[column]] = WrittenCell(
-                after.get(joint.name) if carried else joint, column
-            )
+            owner = after.get(joint.name) if carried else joint
+            cells[letters[column]] = WrittenCell(owner, column)
         rows.append((joint, cells))
     units = {
         letter: "rad" if column in ANGLES else "m"
@@ -350,9 +347,8 @@ def read_table_rows(
     description = "rows, those of all legs and of the platform counted"
     check_count(count, THRESHOLDS.max_rows, description, place.enter("rows"))
     if not listed_rows:
-        raise place.enter("rows").make_error(
-            f"the table is empty; write one row per joint, as in {example}"
-        )
+        what = f"the table is empty; write one row per joint, as in {example}"
+        raise place.enter("rows").make_error(what)
     letters = CONVENTIONS[convention]
     rows: list[tuple[Row, RowPlace]] = list(platform)
     for number, cells in enumerate(listed_rows, start=1):
@@ -363,9 +359,8 @@ def read_table_rows(
         if name in names:
             first = names.index(name) + 1 - len(platform)
             where = f"in rows {first} and" if first > 0 else "in [platform] and in row"
-            raise here.make_error(
-                f"the name {quote_value(name)} stands {where} {number}; give each row its own name"
-            )
+            what = f"the name {quote_value(name)} stands {where} {number}"
+            raise here.make_error(f"{what}; give each row its own name")
         row["j"] = name
         rows.append((row, here))
     file_rows = [row for row, _ in rows[len(platform) :]]
@@ -378,9 +373,7 @@ def read_table_rows(
     return tuple(rows)
 
 
-def build_joints(
-    rows: Rows, symbols: Mapping[str, float], rounded: dict[str, str]
-) -> tuple[Joint, ...]:
+def build_joints(rows: Rows, symbols: Values, rounded: dict[str, str]) -> tuple[Joint, ...]:
     """Returns the joints of checked rows (`read_table_rows`).
 
     Args:
@@ -407,7 +400,7 @@ def build_joints(
     return tuple(joints)
 
 
-def check_units(robot: Robot, values: Mapping[str, float], place: TomlCell) -> list[str]:
+def check_units(robot: Robot, values: Values, place: TomlCell) -> list[str]:
     """Refuses angles in columns of lengths and the reverse.
 
     Args:
@@ -479,14 +472,11 @@ def _check_antecedents(rows: list[tuple[Row, RowPlace]], columns: list[str]) -> 
                 f"{_explain_length(antecedent, rows, columns)}"
             )
         if antecedent not in seen:
-            problem = (
-                f"is a later row; move row {quote_value(antecedent)} above row {quote_value(name)}"
-            )
+            above, below = quote_value(antecedent), quote_value(name)
+            problem = f"is a later row; move row {above} above row {below}"
             if cycle := _find_cycle(name, antecedents):
-                problem = (
-                    f"closes the circle {' -> '.join(cycle)}; every chain of antecedents must "
-                )
-                problem += 'end at "0"'
+                problem = f"closes the circle {' -> '.join(cycle)}; every chain of antecedents"
+                problem += ' must end at "0"'
             raise here.make_error(f"got {quote_value(antecedent)}, which {problem}")
         seen.append(name)
 
@@ -547,7 +537,7 @@ def _read_cell(
     column: str,
     where: RowPlace,
     kinds: Mapping[str, JointKind],
-    symbols: Mapping[str, float],
+    symbols: Values,
     rounded: dict[str, str],
 ) -> Expression:
     row = where.find_owner(column).row  # whose cell it is in the file
@@ -557,9 +547,8 @@ def _read_cell(
     row_variable, home = f"q{row}", HOME.get(kinds[row])
     for name in sorted(expression.names):  # joint variables stand in the place of their own only
         if name == row_variable and home is None:
-            raise place.make_error(
-                f"{got}, but the row is fixed (sigma 2); remove {name} or set sigma"
-            )
+            todo = f"remove {name} or set sigma"
+            raise place.make_error(f"{got}, but the row is fixed (sigma 2); {todo}")
         if name == row_variable and column != home:
             raise place.make_error(
                 f"{got}, but {name} of a {'revolute' if home == 'theta' else 'prismatic'} joint "
@@ -597,8 +586,7 @@ def _read_cell(
     else:
         read_length(expression, symbols, place)
     if column in ANGLES:
-        return read_exact_angle(
-            expression, row_variable if column == home else None, place, rounded
-        )
+        variable = row_variable if column == home else None
+        return read_exact_angle(expression, variable, place, rounded)
     # -0.0 and the like: one zero, so that everyone may drop it.
     return parse_expression(0) if expression.is_zero else expression
