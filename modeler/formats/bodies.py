@@ -292,9 +292,8 @@ def build_export_parameters(
     values = collect_nominal_values(robot)
     if not isinstance(robot_or_model, Robot):
         if standard := robot_or_model.fit.standard:
-            chi = [
-                standard.get(name, x) for name, x in zip(machine.names, completion.chi, strict=True)
-            ]
+            chosen = zip(machine.names, completion.chi, strict=True)
+            chi = [standard.get(name, x) for name, x in chosen]
             completion = dataclasses.replace(completion, chi=np.array(chi))
         if aside := [p.name for p in robot_or_model.fit.parameters if p.sigma is None]:
             notes.append(
@@ -302,8 +301,9 @@ def build_export_parameters(
                 "([parameters.uncertainty]), would show more"
             )
     if fit or not original.total_inertia:  # what a file states stays as it is, whatever it is
+        fit_here = beta, C
         completion, released, more = _find_projection(
-            robot, machine, before, completion, (beta, C), original
+            robot, machine, before, completion, fit_here, original
         )
         notes += more
     else:
@@ -428,12 +428,8 @@ def _collect_stated_values(
     known_names = [name for name in names if name in values]
     K = np.eye(len(names))[[place[name] for name in known_names]]
     tens = {link: np.array([place[f"{p}{link}"] for p in PREFIXES]) for link in links}
-    loss = {
-        n
-        for row in robot.moving_joints
-        for n, q in _iterate_joint_parameters(robot, row.name)
-        if q != "stiffness"
-    }
+    parameters = [p for row in rows for p in _iterate_joint_parameters(robot, row)]
+    loss = {name for name, quantity in parameters if quantity != "stiffness"}
     machine = PhysicalParameters(tuple(names), K, tens, {n: place[n] for n in names if n in loss})
     return machine, np.array([values[name] for name in known_names])
 
@@ -563,10 +559,8 @@ def _find_projection(
             f"{', '.join(first)}; correct [parameters] there"
         )
     if C is not stated:
-        notes.append(
-            f"{', '.join(first)}: stated as no machine could be built; the nearest that could "
-            "is written"
-        )
+        what = "stated as no machine could be built; the nearest that could is written"
+        notes.append(f"{', '.join(first)}: {what}")
     elif first:
         notes.append(
             f"{', '.join(first)}: no body of these base parameters could be built; they moved by "

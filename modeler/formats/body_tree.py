@@ -83,10 +83,8 @@ class Roundings:
             most = describe_rounded_angles(dict(first))
             yield f"{most}{_format_remainder(len(self.angles))}; --exact-decimals keeps them"
         if self.zeros:
-            yield (
-                f"{self.zeros} lengths, angles and parts of axes below "
-                f"{THRESHOLDS.max_rounded_zero:g} are 0 here"
-            )
+            most = f"{THRESHOLDS.max_rounded_zero:g}"
+            yield f"{self.zeros} lengths, angles and parts of axes below {most} are 0 here"
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,6 +231,10 @@ class TreeJoint:
             return self.pose @ Pose(step * self.axis)
         turn = compute_axis_rotation(self.axis, step)
         return self.pose @ Pose(self.point - turn @ self.point, turn)
+
+
+Couplings = dict[str, tuple[str, float, float]]
+"""Joint -> that which it follows, "" for none, ratio and offset."""
 
 
 @dataclass(frozen=True, eq=False)

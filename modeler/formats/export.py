@@ -145,11 +145,8 @@ def _build_parts(
     if not at:
         values |= {joint.variable: 0.0 for joint in robot.moving_joints}
     symbols, capsules_by_row = robot.evaluate_symbols(), build_capsules(robot, at)
-    total_mass = sum(
-        float(t[9])
-        for j in robot.moving_joints
-        if (t := physics.get_link_parameters(j.name)) is not None
-    )
+    bodies = [physics.get_link_parameters(joint.name) for joint in robot.moving_joints]
+    total_mass = sum(float(ten[9]) for ten in bodies if ten is not None)
     parts, moment, tiny = [], THRESHOLDS.min_moment_of_inertia, _TINY[to]
     for row in robot.joints:
         if row.name in robot.motors:
@@ -193,12 +190,9 @@ def _build_parts(
             )
         )
     if massless_links:
-        refusing_programs = (
-            "SDF refuses" if moment < THRESHOLDS.min_moment_of_inertia else "MuJoCo and SDF refuse"
-        )
-        size_note = (
-            "; it is too small for MuJoCo" if moment < THRESHOLDS.min_moment_of_inertia else ""
-        )
+        is_small = moment < THRESHOLDS.min_moment_of_inertia
+        refusing_programs = "SDF refuses" if is_small else "MuJoCo and SDF refuse"
+        size_note = "; it is too small for MuJoCo" if is_small else ""
         notes.append(
             f"{', '.join(massless_links)}: no body, and {tiny:g} of the mass of all is written, "
             f"for {refusing_programs} a moving link without mass{size_note}"
@@ -500,16 +494,8 @@ def export_robot(
     notes = [*physics.notes, *notes, *_find_too_small(values, to)]
     lost = find_lost_effects(physics, to, torques)
     name = "" if like is None else like.name
-    exported = Exported(
-        robot.name,
-        to,
-        name,
-        data,
-        tuple(values),
-        lost,
-        physics.completion.shift_in_sigmas,
-        tuple(notes),
-    )
+    moved = physics.completion.shift_in_sigmas
+    exported = Exported(robot.name, to, name, data, tuple(values), lost, moved, tuple(notes))
     if like is not None and data == source.data:
         return exported
     return dataclasses.replace(exported, data=insert_comment(data, exported))

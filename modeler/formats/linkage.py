@@ -13,14 +13,12 @@ from modeler.formats.body_tree import (
     compute_axis_rotation,
     compute_standard_parameters,
 )
+from modeler.formats.mdh_rows import compute_cells_pose
 from modeler.formats.thresholds import THRESHOLDS
-from modeler.robot import Joint, JointKind, LinkFrame, Loop, Robot, extract_linear_form
+from modeler.robot import GEOMETRY, Joint, JointKind, LinkFrame, Loop, Robot, extract_linear_form
 
 BASE = "0"
 """Name of the frame that stands still."""
-
-
-_X, _Y, _Z = np.eye(3)
 
 
 def compute_frame_pose(frame: LinkFrame, symbols: Mapping[str, float]) -> Pose:
@@ -31,12 +29,9 @@ def compute_frame_pose(frame: LinkFrame, symbols: Mapping[str, float]) -> Pose:
 
 def compute_rpy_rotation(angles: Sequence[float]) -> np.ndarray:
     """Returns (3, 3) Rz(yaw) Ry(pitch) Rx(roll)."""
-    roll, pitch, yaw = angles
-    return (
-        compute_axis_rotation(_Z, yaw)
-        @ compute_axis_rotation(_Y, pitch)
-        @ compute_axis_rotation(_X, roll)
-    )
+    turns = zip(np.eye(3), angles, strict=True)
+    about_x, about_y, about_z = (compute_axis_rotation(axis, angle) for axis, angle in turns)
+    return about_z @ about_y @ about_x
 
 
 def compute_row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
@@ -46,16 +41,8 @@ def compute_row_pose(joint: Joint, values: Mapping[str, float]) -> Pose:
         joint: the row.
         values: of the symbols, and of its variable if it has one.
     """
-    gamma, b, alpha, d, theta, r = (
-        cell.evaluate(values)
-        for cell in (joint.gamma, joint.b, joint.alpha, joint.d, joint.theta, joint.r)
-    )
-    foot = Pose(b * _Z, compute_axis_rotation(_Z, gamma))
-    return (
-        foot
-        @ Pose(d * (compute_axis_rotation(_X, alpha) @ _X), compute_axis_rotation(_X, alpha))
-        @ Pose(r * _Z, compute_axis_rotation(_Z, theta))
-    )
+    cells = {column: getattr(joint, column).evaluate(values) for column in GEOMETRY}
+    return compute_cells_pose(cells)
 
 
 def compute_gravity(robot: Robot) -> np.ndarray:
@@ -128,9 +115,8 @@ def close_loops(robot: Robot) -> dict[str, float]:
         start = np.array([robot.home.get(name, 0.0) for name in passive])
         solution = least_squares(compute_gaps, start, xtol=1e-15, ftol=1e-15, gtol=1e-15)
         if np.abs(solution.fun).max() > THRESHOLDS.max_loop_gap:
-            raise DataError(
-                f"{robot.name}: its loops do not close near [home]; find it with `modeler home`"
-            )
+            todo = "find it with `modeler home`"
+            raise DataError(f"{robot.name}: its loops do not close near [home]; {todo}")
         robot = replace(robot, home={**robot.home, **dict(zip(passive, solution.x, strict=True))})
     values = evaluate_variables(robot, robot.home)
     return {name: values[f"q{name}"] for name in names}

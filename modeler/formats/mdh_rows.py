@@ -96,7 +96,7 @@ def snap_angle(angle: float) -> float:
     return snap_length(angle)
 
 
-def compute_row_pose(cells: Mapping[str, float]) -> Pose:
+def compute_cells_pose(cells: Mapping[str, float]) -> Pose:
     """Returns Rz(gamma) Tz(b) Rx(alpha) Tx(d) Rz(theta) Tz(r)."""
     gamma, b, alpha, d, theta, r = (cells.get(column, 0.0) for column in GEOMETRY)
     c, s = compute_cosine_sine(alpha)
@@ -106,7 +106,7 @@ def compute_row_pose(cells: Mapping[str, float]) -> Pose:
 
 def _compute_screw(angle: float, length: float) -> Pose:
     c, s = compute_cosine_sine(angle)
-    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    turn = np.array([[c, 0.0 - s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     return Pose(np.array([0.0, 0.0, length]), turn)
 
 
@@ -213,11 +213,8 @@ class _RowBuilder:
     def compute_normals(self, link: int, frame: Pose) -> list[_Normal]:
         """Computes the common normals of a frame and the axes and points that its link carries."""
         back = frame.inverse()
-        axes = [
-            self.axes[k].express_in(back @ other.pose)
-            for k, other in enumerate(self.links)
-            if other.parent == link
-        ]
+        carried = [k for k, other in enumerate(self.links) if other.parent == link]
+        axes = [self.axes[k].express_in(back @ self.links[k].pose) for k in carried]
         points = [back.transform_point(point) for point in self.points.get(link, ())]
         normals = [_compute_common_normal(axis, self.reach) for axis in axes]
         return normals + [replace(_compute_point_normal(p[:2]), b=float(p[2])) for p in points]
@@ -236,10 +233,10 @@ class _RowBuilder:
             d = snap_length(normal.d * _get_fold_sign(cells["gamma"], normal.gamma))
             cells |= {"d": d, "theta": _fold_angle(normal.tilt - cells["gamma"])}
             self.rows.append(MdhRow(f"{name}f", antecedent, cells))
-            antecedent, start, cells = f"{name}f", compute_row_pose(cells), {}
-        axis = axis.express_in((start @ compute_row_pose(cells)).inverse())
+            antecedent, start, cells = f"{name}f", compute_cells_pose(cells), {}
+        axis = axis.express_in((start @ compute_cells_pose(cells)).inverse())
         cells |= _compute_axis_cells(axis)
-        placed = before.inverse() @ start @ compute_row_pose(cells)  # in file frame k
+        placed = before.inverse() @ start @ compute_cells_pose(cells)  # in file frame k
         revolute = joint.kind is JointKind.REVOLUTE
         zero = joint.zero
         theta, r = self._choose_theta_r(k, placed, (zero, 0.0) if revolute else (0.0, zero))
@@ -260,9 +257,9 @@ class _RowBuilder:
         normal = _compute_common_normal(axis, self.reach)
         if axis.through is not None and normal.tilt is None:
             cells = _compute_foot_cells(normal)
-            cells |= _compute_axis_cells(axis.express_in(compute_row_pose(cells).inverse()))
+            cells |= _compute_axis_cells(axis.express_in(compute_cells_pose(cells).inverse()))
             if any(cells.values()):
-                name, frame = f"{k}s", frame @ compute_row_pose(cells)
+                name, frame = f"{k}s", frame @ compute_cells_pose(cells)
                 self.rows.append(MdhRow(name, f"{parent}", cells))
         self.base_rows[lead] = name, frame
         return name, frame
@@ -375,13 +372,8 @@ def build_mdh_table(links: Sequence[MovingLink], loops: Sequence[Loop] = ()) -> 
     points: dict[int, list[np.ndarray]] = {}
     for k, pose in itertools.chain(*loops):
         points.setdefault(k, []).append(pose.position)
-    builder = _RowBuilder(
-        links,
-        max(link_lengths) or 1.0,
-        _collect_axes(links),
-        points,
-        _find_loop_leaders(links, loops),
-    )
+    reach, leaders = max(link_lengths) or 1.0, _find_loop_leaders(links, loops)
+    builder = _RowBuilder(links, reach, _collect_axes(links), points, leaders)
     for k in range(1, len(links)):
         builder.add_row(k)
     names = tuple(f"{k}" for k in range(len(links)))
@@ -427,7 +419,7 @@ def compute_fixed_row(pose: Pose, free_about_z: bool) -> dict[str, float]:
     x, y, z = rest.position.tolist()
     alpha = snap_angle(math.atan2(-rest.rotation[1, 2], rest.rotation[2, 2]))
     r = 0.0 if parallel else -y / math.sin(alpha)
-    back = compute_row_pose({"alpha": -alpha}).rotation @ rest.rotation
+    back = compute_cells_pose({"alpha": -alpha}).rotation @ rest.rotation
     return {
         "gamma": gamma,
         "b": snap_length(z - r * math.cos(alpha)),

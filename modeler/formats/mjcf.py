@@ -23,6 +23,7 @@ from modeler.formats.body_tree import (
     ALIKE,
     EXACT,
     BodyTree,
+    Couplings,
     Inertial,
     LoopClosure,
     Pose,
@@ -111,9 +112,8 @@ def _suppress_warnings(mujoco: Any, path: Path) -> Iterator[None]:
         mujoco.UnexpectedError,
     ) as error:
         message = " ".join(str(error).split()).replace("XML Error: ", "").replace("Error: ", "")
-        raise RobotError(
-            flatten_message(f"{path}: MuJoCo does not take it: {message}; correct it there")
-        ) from None
+        what = f"{path}: MuJoCo does not take it: {message}; correct it there"
+        raise RobotError(flatten_message(what)) from None
     finally:
         mujoco.set_mju_user_warning(before)
 
@@ -308,9 +308,8 @@ class _ModelReader:
         model, hidden, unread = self._model, set[str](), dict[str, str]()
         for numbers in _NUMBERS.split():
             if not np.all(np.abs(getattr(model, numbers)) < THRESHOLDS.max_mjcf_number):
-                raise self._build_error(
-                    f"{numbers}: got more than {THRESHOLDS.max_mjcf_number:g}; expected SI units"
-                )
+                most = f"{THRESHOLDS.max_mjcf_number:g}"
+                raise self._build_error(f"{numbers}: got more than {most}; expected SI units")
         if np.all(model.jnt_type == _FREE):
             raise self._build_error("no hinge or slide moves anything; expected a robot")
         joints = tuple(self._read_tree_joints(hidden, unread))
@@ -436,7 +435,7 @@ class _ModelReader:
         self._notes += [f"joint {name} stands still: an equality holds it" for name in fixed_names]
         return tuple(joints_by_name.values())
 
-    def _read_couplings(self) -> dict[str, tuple[str, float, float]]:
+    def _read_couplings(self) -> Couplings:
         """Joint -> that which it follows, "" for none, ratio and offset."""
         model, ties = self._model, dict[int, tuple[int, float, float]]()
         for kind, i, name in self._iterate_equalities():

@@ -87,10 +87,8 @@ def read_original(path: Path) -> OriginalFile:
         raise DataError(f"--like {path}: cannot be read ({error.strerror})") from None
     root = parse_xml(data, str(path))
     if root.tag not in FORMATS:
-        raise DataError(
-            f"--like {path}: got <{root.tag[:40]}>; expected <robot> (URDF), <mujoco> (MJCF) or "
-            "<sdf>"
-        )
+        got = f"got <{root.tag[:40]}>; expected <robot> (URDF), <mujoco> (MJCF) or <sdf>"
+        raise DataError(f"--like {path}: {got}")
     kind = FORMATS[root.tag]
     if kind == "sdf":
         return OriginalFile(path, data, root, kind, None, _read_sdf_links(root))
@@ -183,16 +181,16 @@ def assign_links(source: OriginalFile, robot: Robot) -> Placement:
         _check_tree(source, source.tree, robot, on, joints)
         _check_ties(source, source.tree, robot, joints)
         notes = list(_compare_gravity(source, source.tree, robot, on))
-        moved_links = moved_links or {
-            joints[j.name]: j.child for j in source.tree.joints if j.name in joints
-        }
+        if not moved_links:
+            tree_joints = [joint for joint in source.tree.joints if joint.name in joints]
+            moved_links = {joints[joint.name]: joint.child for joint in tree_joints}
     poses_by_row: dict[str, dict[str, Pose]] = {}
     for name, (row, pose) in on.items():
         if name in source.links and row != BASE:
             poses_by_row.setdefault(row, {})[name] = pose
     links = {
-        row: _choose_carrier(source, link_poses, moved_links.get(row, ""))
-        for row, link_poses in poses_by_row.items()
+        row: _choose_carrier(source, poses, moved_links.get(row, ""))
+        for row, poses in poses_by_row.items()
     }
     return Placement(links, joints, tuple(notes))
 
@@ -236,6 +234,8 @@ def _build_mismatch(source: OriginalFile, robot: Robot, what: str) -> DataError:
 
 Links = Mapping[str, tuple[str, Pose]]
 """By name: the row of a link, and the pose of its frame on it."""
+Rows = Mapping[str, str]
+"""By the name of a joint in the file: its row."""
 
 
 def _locate_by_frames(source: OriginalFile, robot: Robot) -> Links:
@@ -248,24 +248,18 @@ def _locate_by_frames(source: OriginalFile, robot: Robot) -> Links:
     if source.format in ("sdf", "mjcf"):  # fixed joints may be lumped there, the first be the world
         missing = [name for name in missing if robot.frames[name].joint]
     if missing:
-        raise _build_mismatch(
-            source,
-            robot,
-            f"it has no link {missing[0]}{suggest_name(missing[0], list(source.links))}",
-        )
-    return {
-        name: (frame.row, compute_frame_pose(frame, symbols))
-        for name, frame in robot.frames.items()
-    }
+        near = suggest_name(missing[0], list(source.links))
+        raise _build_mismatch(source, robot, f"it has no link {missing[0]}{near}")
+    frames = robot.frames.items()
+    return {name: (frame.row, compute_frame_pose(frame, symbols)) for name, frame in frames}
 
 
 def _locate_by_order(source: OriginalFile, tree: BodyTree, robot: Robot) -> Links:
     """Links on the rows of a table that does not name them: joint for joint, as they are at 0."""
     links, rows = collect_moving_links(tree), [BASE, *_collect_moving_rows(robot)]
     if len(links) != len(rows):
-        raise _build_mismatch(
-            source, robot, f"it has {len(links) - 1} moving joints, and the table {len(rows) - 1}"
-        )
+        counts = f"{len(links) - 1} moving joints, and the table {len(rows) - 1}"
+        raise _build_mismatch(source, robot, f"it has {counts}")
     joints = _find_joint_rows(tree, robot)
     at = compute_row_poses(robot, {})
     values = evaluate_variables(robot, {})
@@ -308,7 +302,7 @@ def _compute_body_poses(tree: BodyTree, q: Mapping[str, float]) -> dict[str, Pos
 
 
 def _check_tree(
-    source: OriginalFile, tree: BodyTree, robot: Robot, on: Links, joints: Mapping[str, str]
+    source: OriginalFile, tree: BodyTree, robot: Robot, on: Links, joints: Rows
 ) -> None:
     """Every joint places its child as the table does, at random postures."""
     rng = np.random.default_rng(0)
@@ -326,9 +320,7 @@ def _check_tree(
                 raise _build_mismatch(source, robot, what)
 
 
-def _check_ties(
-    source: OriginalFile, tree: BodyTree, robot: Robot, joints: Mapping[str, str]
-) -> None:
+def _check_ties(source: OriginalFile, tree: BodyTree, robot: Robot, joints: Rows) -> None:
     """Joints follow each other as in [relations], those that motors couple aside."""
     rng = np.random.default_rng(0)
     q = {joint.name: rng.uniform(-1.0, 1.0) for joint in robot.moving_joints}

@@ -7,7 +7,7 @@ from pathlib import PurePath
 from modeler.core.toml_cells import join_names
 from modeler.formats.par_table import (
     Counts,
-    ParFrame,
+    Frames,
     Symbols,
     convert_gravity,
     convert_table_cells,
@@ -74,7 +74,7 @@ class Bodies:
             self.others.append(f"{name} (there {cell.source_text})")
 
 
-def read_bodies(statements: Statements, counts: Counts, frames: list[ParFrame]) -> Bodies:
+def read_bodies(statements: Statements, counts: Counts, frames: Frames) -> Bodies:
     """Returns the parameters of links 1 .. NL, and what is left out.
 
     A parameter that is 0 beside letters is one that the link has not; beside numbers only, a
@@ -113,9 +113,7 @@ def read_bodies(statements: Statements, counts: Counts, frames: list[ParFrame]) 
     return result
 
 
-def _read_effects(
-    statements: Statements, counts: Counts, frames: list[ParFrame], result: Bodies
-) -> None:
+def _read_effects(statements: Statements, counts: Counts, frames: Frames, result: Bodies) -> None:
     """Adds friction and rotor inertias of the joints, and offsets where there is friction."""
     without = []
     for key, (effect, prefix) in _EFFECT.items():
@@ -244,9 +242,7 @@ def convert_par_file(data: bytes, where: str) -> ConvertedRobot:
     return ConvertedRobot(join_lines([*head, *tables]), tuple(notes))
 
 
-def _format_tables(
-    symbols: Symbols, counts: Counts, links: Bodies, frames: list[ParFrame]
-) -> list[str]:
+def _format_tables(symbols: Symbols, counts: Counts, links: Bodies, frames: Frames) -> list[str]:
     """`[symbols]` and all below."""
     rows = [
         TextRow(

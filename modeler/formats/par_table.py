@@ -92,6 +92,9 @@ class ParFrame:
         return {0: "theta", 1: "r"}.get(self.sigma)
 
 
+Frames = list[ParFrame]
+
+
 def read_counts(statements: Statements) -> Counts:
     """Returns the numbers that the file states, checked against the lengths of its lists.
 
@@ -122,7 +125,7 @@ def read_counts(statements: Statements) -> Counts:
     return counts
 
 
-def read_par_frames(statements: Statements, counts: Counts) -> list[ParFrame]:
+def read_par_frames(statements: Statements, counts: Counts) -> Frames:
     """Returns the frames with their cells.
 
     Raises:
@@ -140,7 +143,7 @@ def read_par_frames(statements: Statements, counts: Counts) -> list[ParFrame]:
     return frames
 
 
-def find_joint_variables(frames: list[ParFrame], statements: Statements) -> dict[str, str]:
+def find_joint_variables(frames: Frames, statements: Statements) -> dict[str, str]:
     """Returns letter of a joint variable in the file -> `q<j>`; frames without one get theirs.
 
     The variable of frame j is the letter with its number (th3, t3, q3, r3), else the only letter
@@ -375,11 +378,7 @@ LETTER = {"gamma": "gam", "alpha": "alp", "theta": "off", "b": "B", "d": "D", "r
 
 
 def convert_table_cells(
-    frames: list[ParFrame],
-    counts: Counts,
-    variables: dict[str, str],
-    symbols: Symbols,
-    place: TomlCell,
+    frames: Frames, counts: Counts, variables: dict[str, str], symbols: Symbols, place: TomlCell
 ) -> None:
     """Turns the cells of the frames into those of a robot file; symbols and notes grow.
 
@@ -415,7 +414,7 @@ def convert_table_cells(
         )
 
 
-def _find_loop_frames(frames: list[ParFrame], counts: Counts) -> set[int]:
+def _find_loop_frames(frames: Frames, counts: Counts) -> set[int]:
     """Frames between a cut joint and its second frame, through the tree."""
     numbers: set[int] = set()
     for k in range(counts.loops):
@@ -430,7 +429,7 @@ def _find_loop_frames(frames: list[ParFrame], counts: Counts) -> set[int]:
 
 
 def _declare_letters(
-    frames: list[ParFrame], counts: Counts, variables: dict[str, str], symbols: Symbols
+    frames: Frames, counts: Counts, variables: dict[str, str], symbols: Symbols
 ) -> None:
     """Declare the letters of the geometry by distinct stand-ins; put our names for theirs."""
     places = [
@@ -503,7 +502,7 @@ def _declare_number(
     return ParFormula(parse_python(text), text)
 
 
-def _add_variables(frames: list[ParFrame], symbols: Symbols) -> None:
+def _add_variables(frames: Frames, symbols: Symbols) -> None:
     """`q<j>` where the file leaves the joint variable to be understood."""
     missing = []
     for frame in frames:

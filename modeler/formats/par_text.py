@@ -193,9 +193,8 @@ def _parse_entries(inner: str, key: str, place: TomlCell) -> tuple[str, ...]:
         return ()
     for number, entry in enumerate(entries, start=1):
         if not entry:
-            raise place.enter(f"{key}, entry {number}").make_error(
-                "is empty; expected a number, a letter or an expression"
-            )
+            what = "is empty; expected a number, a letter or an expression"
+            raise place.enter(f"{key}, entry {number}").make_error(what)
     return tuple(entries)
 
 

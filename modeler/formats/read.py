@@ -60,17 +60,13 @@ def convert_robot_file(
     except OSError as error:
         raise RobotError(f"{path}: cannot be read ({error.strerror}); check the path") from None
     if path.suffix.lower() == ".toml" and not is_robot_xml(data):
-        raise RobotError(
-            f"{path}: is a robot file already; expected one of another program, such as x.urdf, "
-            "x.xml or x.par"
-        )
+        expected = "expected one of another program, such as x.urdf, x.xml or x.par"
+        raise RobotError(f"{path}: is a robot file already; {expected}")
     if path.suffix.lower() in OTHER_PROGRAMS[1:] or is_robot_xml(data):
         return _convert_xml(path, data, exact_decimals, part)
     if exact_decimals or any(part.values()):
-        raise RobotError(
-            f"{path}: --base, --tip, --lock and --exact-decimals are for URDF and MJCF; leave them "
-            "out"
-        )
+        options = "--base, --tip, --lock and --exact-decimals"
+        raise RobotError(f"{path}: {options} are for URDF and MJCF; leave them out")
     from modeler.formats.par_convert import convert_par_file
 
     return convert_par_file(data, str(path))

@@ -192,9 +192,8 @@ class _NumberEditor:
             before = None
             if was is not None:
                 before = compute_central_parameters(compute_standard_parameters(was), axes)
-            fresh = keep_unchanged(
-                compute_central_parameters(express_parameters(new, pose.inverse()), axes), before
-            )
+            own = express_parameters(new, pose.inverse())
+            fresh = keep_unchanged(compute_central_parameters(own, axes), before)
             if before is not None and now is tens:
                 fresh = before
             if before is None or np.any(fresh != before):
@@ -235,11 +234,11 @@ class _NumberEditor:
         """Writes what resists a joint, and returns the values of it."""
         stated = self.joints.get(name)
         if stated is None:
-            texts = {
-                q: get_text_at(self._find_element("joint", name), p)
-                for q, p in self.paths.items()
-                if q in _RESISTS
+            paths = {
+                quantity: path for quantity, path in self.paths.items() if quantity in _RESISTS
             }
+            element = self._find_element("joint", name)
+            texts = {quantity: get_text_at(element, path) for quantity, path in paths.items()}
             was = {quantity: float(text or 0.0) for quantity, text in texts.items()}
         else:
             was = {quantity: float(getattr(stated, quantity) or 0.0) for quantity in _RESISTS}
@@ -314,9 +313,8 @@ def _check_mjcf(source: OriginalFile) -> None:
         if stated.get("inertiafromgeom") == "true":
             wrong.append('inertiafromgeom="true" takes all masses from geoms; write "auto" there')
         if "springdamper" in stated:
-            wrong.append(
-                "springdamper makes damping of masses; write stiffness and damping instead"
-            )
+            todo = "write stiffness and damping instead"
+            wrong.append(f"springdamper makes damping of masses; {todo}")
         if wrong:
             raise DataError(f"--like {source.path}: line {element.line}: {wrong[0]}")
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 from modeler.core.errors import RobotError
 from modeler.core.expression import ExpressionError, parse_expression
 from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
-from modeler.formats.body_tree import BodyTree, TreeJoint, compute_body_poses
+from modeler.formats.body_tree import BodyTree, Couplings, TreeJoint, compute_body_poses
 from modeler.robot import LARGEST_LENGTH, JointKind
 
 
@@ -62,19 +62,12 @@ def parse_lock_values(texts: Iterable[str]) -> dict[str, str]:
 
 def fix_joint(joint: TreeJoint, position: float) -> TreeJoint:
     """Returns the joint as one that is fixed at a position."""
-    return TreeJoint(
-        joint.name,
-        JointKind.FIXED,
-        joint.parent,
-        joint.child,
-        joint.compute_pose(position),
-        actuated=False,
-    )
+    pose = joint.compute_pose(position)
+    kind, parent, child = JointKind.FIXED, joint.parent, joint.child
+    return TreeJoint(joint.name, kind, parent, child, pose, actuated=False)
 
 
-def resolve_leaders(
-    joints: dict[str, TreeJoint], direct: Mapping[str, tuple[str, float, float]]
-) -> tuple[list[str], str]:
+def resolve_leaders(joints: dict[str, TreeJoint], direct: Couplings) -> tuple[list[str], str]:
     """Lets joints follow the one that leads, through those that follow it themselves.
 
     Args:
@@ -108,10 +101,8 @@ def _apply_lock(tree: BodyTree, name: str, value: str | float) -> BodyTree:
     joints = {joint.name: joint for joint in tree.joints}
     joint = joints.get(name)
     if joint is None:
-        raise place.make_error(
-            f"no joint of that name{suggest_name(name, joints)}; expected one of "
-            f"{join_names(joints)}"
-        )
+        near = suggest_name(name, joints)
+        raise place.make_error(f"no joint of that name{near}; expected one of {join_names(joints)}")
     if joint.leader:
         leader = quote_value(joint.leader)
         raise place.make_error(f"it follows joint {leader}; lock that one, both stop then")

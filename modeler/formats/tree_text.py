@@ -374,9 +374,8 @@ class _TreeWriter:
         for link in self.links[1:]:
             is_massless = link.inertial is None or link.inertial.mass == 0.0
             for name in (body for body in link.bodies if body not in self.tree.auxiliary_bodies):
-                if (why := self.tree.unreliable_bodies.get(name)) and (
-                    is_massless or why != "mass 0"
-                ):
+                why = self.tree.unreliable_bodies.get(name)
+                if why and (is_massless or why != "mass 0"):
                     named.setdefault(f"{why}: {{}}", []).append(name)
                 elif self.tree.bodies[name] is None and is_massless:
                     sentence = "no inertia is stated of {}; they weigh nothing"
@@ -385,13 +384,12 @@ class _TreeWriter:
 
     def _is_measured(self, link: MovingLink) -> bool:
         """False where a placeholder is among bodies that were weighed: a prior would believe it."""
-        unreliable_bodies = [
-            self.tree.bodies[name] for name in link.bodies if name in self.tree.unreliable_bodies
-        ]
+        names = [name for name in link.bodies if name in self.tree.unreliable_bodies]
+        unreliable_bodies = [body for name in names if (body := self.tree.bodies[name])]
         placeholders = [
-            b
-            for b in unreliable_bodies
-            if b and (b.mass < 0.0 or np.array_equal(b.inertia, np.eye(3)))
+            body
+            for body in unreliable_bodies
+            if body.mass < 0.0 or np.array_equal(body.inertia, np.eye(3))
         ]
         return not placeholders or len(link.bodies) == 1
 

@@ -17,6 +17,7 @@ from modeler.core.errors import RobotError
 from modeler.core.toml_cells import TomlCell, join_names, quote_value, suggest_name
 from modeler.formats.body_tree import (
     BodyTree,
+    Couplings,
     Inertial,
     LoopClosure,
     Pose,
@@ -44,7 +45,8 @@ from modeler.robot import LOOP_KINDS, JointKind
 
 Joints = dict[str, TreeJoint]
 Tell = Callable[[str, str], None]
-"""Adds a name to a sentence with {} that is reported."""
+"""Adds a name to a sentence with {} that is told."""
+Spots = Mapping[str, LocatedElement]
 
 _COUPLED = (
     ("joint", "mimic", "name", "joint"),
@@ -70,15 +72,13 @@ _SEVERAL = "transmissions of several joints are left out, rotors too; [motors] s
 # Joints that follow others.
 
 
-def read_couplings(
-    root: LocatedElement, joints: Joints, tell: Tell
-) -> dict[str, tuple[str, float, float]]:
+def read_couplings(root: LocatedElement, joints: Joints, tell: Tell) -> Couplings:
     """Returns joint -> that which it follows, ratio and offset.
 
     Raises:
         RobotError: two statements that differ, a coupling of no two joints.
     """
-    couplings: dict[str, tuple[str, float, float]] = {}
+    couplings: Couplings = {}
     for spot, follower, leader in _find_couplings(root, joints, tell):
         spot.require_known("joint", follower, joints)
         key = "ratio" if spot.element.tag == "coupling" else "multiplier"
@@ -132,7 +132,7 @@ def add_loops(root: LocatedElement, tree: BodyTree, rounded: Roundings) -> BodyT
         RobotError: a loop of a kind that robot files do not have, links that are not there.
     """
     link_of = {body: k for k, link in enumerate(collect_moving_links(tree)) for body in link.bodies}
-    closures = list(_read_loop_closures(root, tree, rounded))
+    closures = list(_read_loops(root, tree, rounded))
     internal_closures = [m for m in closures if link_of[m.body] == link_of[m.other]]
     notes = [
         f"loops within one body are left out: {summarise_names(m.name for m in internal_closures)}"
@@ -155,9 +155,7 @@ def add_loops(root: LocatedElement, tree: BodyTree, rounded: Roundings) -> BodyT
     return replace(tree, notes=(*tree.notes, *notes))
 
 
-def _read_loop_closures(
-    root: LocatedElement, tree: BodyTree, rounded: Roundings
-) -> Iterator[LoopClosure]:
+def _read_loops(root: LocatedElement, tree: BodyTree, rounded: Roundings) -> Iterator[LoopClosure]:
     for spot in root.find_children("loop", "loop_joint", "constraint"):
         kind, links, poses = _read_loop_kind(spot), list[str](), list[Pose]()
         for side in spot.find_children(*_SIDES):
@@ -411,9 +409,7 @@ class _UrdfReader:
         # Measured, and no part of the geometry: as printed.
         return body.express_in(read_pose(inertial.find_child("origin"), Roundings(exact=True)))
 
-    def _read_joint(
-        self, name: str, spot: LocatedElement, links: Mapping[str, LocatedElement]
-    ) -> TreeJoint:
+    def _read_joint(self, name: str, spot: LocatedElement, links: Spots) -> TreeJoint:
         kind = spot.require_attribute("type", "revolute").lower()
         if kind in _UNREAD:
             self._unread[name] = f"{spot.place.file}: joint {quote_value(name)}: {kind}"
@@ -491,9 +487,7 @@ class _UrdfReader:
             self._add_note("axes that are not of length 1 are taken as directions: {}", name)
         return np.asarray(axis / np.linalg.norm(axis) + 0.0)
 
-    def _couple_joints(
-        self, joints: dict[str, TreeJoint], spots: Mapping[str, LocatedElement]
-    ) -> None:
+    def _couple_joints(self, joints: Joints, spots: Spots) -> None:
         """Let the mimic joints follow a joint that leads."""
         direct = read_couplings(self._root, joints, self._add_note)
         fixed_names, circle = resolve_leaders(joints, direct)
@@ -509,10 +503,7 @@ class _UrdfReader:
 
 
 def _find_first_link(
-    place: TomlCell,
-    bodies: Iterable[str],
-    joints: Mapping[str, TreeJoint],
-    spots: Mapping[str, LocatedElement],
+    place: TomlCell, bodies: Iterable[str], joints: Mapping[str, TreeJoint], spots: Spots
 ) -> str:
     """The link that no joint moves; refuses what is no tree."""
     above: dict[str, TreeJoint] = {}

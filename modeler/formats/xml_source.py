@@ -205,18 +205,15 @@ class _XmlReader:
     def _open_element(self, tag: str, pairs: list[str]) -> None:
         self._count += 1
         if self._count > THRESHOLDS.max_elements or len(self._open) > THRESHOLDS.max_element_depth:
-            most = (
-                f"{THRESHOLDS.max_elements} elements, or than {THRESHOLDS.max_element_depth} "
-                f"inside each other"
-            )
+            most = f"{THRESHOLDS.max_elements} elements, "
+            most += f"or than {THRESHOLDS.max_element_depth} inside each other"
             raise self._build_error(f"more than {most}; is this a robot?")
         begin = self._expat.CurrentByteIndex
         at, spans = begin + 1 + len(tag.encode(self._encoding)), {}
         while attribute_match := _ATTRIBUTE.match(self._data, at):
             at = attribute_match.end()
-            spans[attribute_match[1].decode(self._encoding)] = attribute_match.span(
-                attribute_match.lastindex or 0
-            )
+            name, place = attribute_match[1], attribute_match.lastindex or 0
+            spans[name.decode(self._encoding)] = attribute_match.span(place)
         attributes = dict(zip(pairs[::2], pairs[1::2], strict=True))
         opening = begin, self._data.index(b">", at) + 1
         line = self._expat.CurrentLineNumber
@@ -294,11 +291,9 @@ class ElementTable:
         """Returns the path of a child; bodies in bodies, and defaults in defaults, count once."""
         path_name = self.same.get(tag, tag)
         known = tag in self.same
-        return (
-            parent
-            if known and (not path_name or parent.endswith(f"/{path_name}"))
-            else f"{parent}/{path_name}"
-        )
+        if known and (not path_name or parent.endswith(f"/{path_name}")):
+            return parent
+        return f"{parent}/{path_name}"
 
     def collect_notes(self, roots: Iterable[tuple[str, Element]]) -> list[str]:
         """Returns what to show of files, those that are included behind their own.
@@ -408,9 +403,8 @@ class LocatedElement:
 
     def find_grandchildren(self, outer: str, inner: str) -> "list[LocatedElement]":
         """Returns the elements `inner` in all children `outer`."""
-        return [
-            each for around in self.find_children(outer) for each in around.find_children(inner)
-        ]
+        around = self.find_children(outer)
+        return [each for element in around for each in element.find_children(inner)]
 
     @property
     def name(self) -> str:
@@ -424,9 +418,8 @@ class LocatedElement:
     def require_known(self, what: str, name: str, known: Collection[str]) -> str:
         """Returns the name of a link or joint that must be there."""
         if name not in known:
-            raise self.make_error(
-                f"there is no {what} {quote_value(name)}{suggest_name(name, known)}"
-            )
+            near = suggest_name(name, known)
+            raise self.make_error(f"there is no {what} {quote_value(name)}{near}")
         return name
 
     def get_text(self, attribute: str) -> str:
@@ -446,12 +439,8 @@ class LocatedElement:
             if key in keys and values.setdefault(key, text) != text:
                 raise self.make_error(f"a second <{child.tag}>; take out what is not meant")
         values = {**{key: text for key, text in values.items() if text}, **self.element.attributes}
-        return LocatedElement(
-            replace(self.element, attributes=values),
-            self._where,
-            self.place.location,
-            self.is_given,
-        )
+        element = replace(self.element, attributes=values)
+        return LocatedElement(element, self._where, self.place.location, self.is_given)
 
     def require_child(self, tag: str, example: str) -> "LocatedElement":
         """Returns the child of that tag, which the element must have."""

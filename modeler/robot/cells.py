@@ -104,11 +104,8 @@ def recognise_angle_terms(tree: ast.expr, rounded: dict[str, str]) -> ast.expr:
         sides = (tree.left, tree.right)
         whole = [isinstance(s, ast.Constant) and isinstance(s.value, int) for s in sides]
         if isinstance(tree.op, ast.Add | ast.Sub) or any(whole):
-            return ast.BinOp(
-                recognise_angle_terms(sides[0], rounded),
-                tree.op,
-                recognise_angle_terms(sides[1], rounded),
-            )
+            left, right = (recognise_angle_terms(side, rounded) for side in sides)
+            return ast.BinOp(left, tree.op, right)
     minus = isinstance(tree, ast.UnaryOp) and isinstance(tree.op, ast.USub)
     number = tree.operand if isinstance(tree, ast.UnaryOp) else tree
     if isinstance(number, ast.Constant) and isinstance(number.value, float):
@@ -213,10 +210,8 @@ def extract_linear_form(expression: Expression, symbols: Values) -> Linear:
         HighPower: an exponent is beyond `LARGEST_EXPONENT`.
         ArithmeticError: division by zero, overflow, or no real value.
     """
-    values = {
-        name: Linear(symbols[name]) if name in symbols else Linear(0.0, {name: 1.0})
-        for name in expression.names
-    }
+    values = {name: Linear(0.0, {name: 1.0}) for name in expression.names}
+    values |= {name: Linear(symbols[name]) for name in expression.names if name in symbols}
     form = expression.fold(values, _LIFTED, Linear(math.pi), lambda value: Linear(float(value)))
     form = Linear(form.constant, {n: c for n, c in form.coefficients.items() if c != 0.0})
     if not all(map(math.isfinite, (form.constant, *form.coefficients.values()))):
@@ -465,6 +460,8 @@ def read_exact_angle(
 # The `[symbols]` table and the gravity of a robot file.
 
 
+Solved = tuple[dict[str, Expression], dict[str, float]]
+"""Symbols and their values."""
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 # Symbols become names in C.
 C_WORDS = """
@@ -474,9 +471,7 @@ C_WORDS = """
 """
 
 
-def read_symbols(
-    place: TomlCell, variables: Collection[str]
-) -> tuple[dict[str, Expression], dict[str, float]]:
+def read_symbols(place: TomlCell, variables: Collection[str]) -> Solved:
     """Reads symbols and their values, each after those that its value uses.
 
     Args:
@@ -536,9 +531,7 @@ def read_gravity(
     return x, y, z
 
 
-def _resolve_symbols(
-    symbols: Mapping[str, Expression], place: TomlCell
-) -> tuple[dict[str, Expression], dict[str, float]]:
+def _resolve_symbols(symbols: Mapping[str, Expression], place: TomlCell) -> Solved:
     ordered: dict[str, Expression] = {}
     values: dict[str, float] = {}
     waiting = dict(symbols)

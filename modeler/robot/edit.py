@@ -509,9 +509,8 @@ def collect_shared_effects(robot: Robot, folder: str | Path) -> SharedEffects:
             (effect,) = read_own_effects({name: cell}, place, before=others)
             before, owner = known.get(name, (effect, ""))
             if _build_law_key(before) != _build_law_key(effect):
-                raise place.enter(f"[own_effects.{name}]").make_error(
-                    f"defined otherwise in {owner}; rename one of the two"
-                )
+                here, what = place.enter(f"[own_effects.{name}]"), f"defined otherwise in {owner}"
+                raise here.make_error(f"{what}; rename one of the two")
             others_read = sorted(effect.forms[0].other_joint_names)
             if lacks := [name for name in others_read if name[1:] not in joints]:
                 left_out[name] = f"{path}: it reads {join_names(lacks)}, no joint of {robot.name}"

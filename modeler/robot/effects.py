@@ -231,9 +231,8 @@ def _read_effect_instances(
         check_finite(form, here, shapes)
         unlabelled = [dataclasses.replace(other, label="") for other in instances]
         if EffectInstance(name, number, shapes) in unlabelled:
-            raise here.make_error(
-                f"{join_names(f'{k} = {v:g}' for k, v in shapes.items())} stands twice; remove one"
-            )
+            values = join_names(f"{key} = {value:g}" for key, value in shapes.items())
+            raise here.make_error(f"{values} stands twice; remove one")
         before = sum(other.joint == name for other in instances)
         instances.append(EffectInstance(name, number, shapes, f"_{before + 1}" if before else ""))
     joints = tuple(name for name in moving if any(i.joint == name for i in instances))

@@ -88,9 +88,8 @@ def _read_loop(cells: Mapping[str, Any], joints: Sequence[Joint], place: TomlCel
     if kind not in LOOP_KINDS:
         suggestion = _suggest_joint(kind) if isinstance(kind, str) else None
         other = f"{suggest_name(kind, LOOP_KINDS)}; expected one of {join_names(LOOP_KINDS)}"
-        raise here.enter("column joint").make_error(
-            f"got {quote_value(kind)}{f'; {suggestion}' if suggestion else other}"
-        )
+        wrong = f"; {suggestion}" if suggestion else other
+        raise here.enter("column joint").make_error(f"got {quote_value(kind)}{wrong}")
     rows, bodies = {joint.name: joint for joint in joints}, []
     for frame in frames:  # the moving row that carries it, "0" for the base
         while frame != "0" and not rows[frame].is_moving:
@@ -277,10 +276,8 @@ def read_leg_names(place: TomlCell) -> tuple[str, ...]:
     check_count(len(legs), THRESHOLDS.max_legs, "legs", place)
     for leg in legs:
         if not isinstance(leg, str) or not ROW_NAME.fullmatch(leg):
-            raise place.make_error(
-                f'got {quote_value(leg)}; expected names of letters and digits, as in ["1", "2", '
-                '"3"]'
-            )
+            expected = 'expected names of letters and digits, as in ["1", "2", "3"]'
+            raise place.make_error(f"got {quote_value(leg)}; {expected}")
         if legs.count(leg) > 1:
             what = f"{quote_value(leg)} stands there twice"
             raise place.make_error(f"{what}; give each leg its own name")
@@ -514,9 +511,7 @@ def compute_joint_directions(robot: Robot) -> dict[str, tuple[float, ...]]:
     if not robot.motors:
         return {name: tuple(float(name == other) for other in coordinates) for name in coordinates}
     joints = [j.name for j in robot.joints if any(j.name in row for row in robot.motors.values())]
-    rows = {
-        joint: [robot.motors[motor].get(joint, 0.0) for motor in coordinates] for joint in joints
-    }
+    rows = {joint: [robot.motors[m].get(joint, 0.0) for m in coordinates] for joint in joints}
     return {joint: tuple(row) for joint, row in rows.items()}
 
 
@@ -618,10 +613,8 @@ def read_shared(
     for entry in place.read_list('["*2{i}", "*3{i}"]'):
         pattern = place.with_value(normalise_row_name(entry)).read_text('"*2{i}"')
         if MARK not in pattern or not legs:
-            raise place.make_error(
-                f'got {quote_value(pattern)}; expected {MARK} in it and legs = ["1", "2"] at the '
-                "top"
-            )
+            expected = f'expected {MARK} in it and legs = ["1", "2"] at the top'
+            raise place.make_error(f"got {quote_value(pattern)}; {expected}")
         first = pattern.replace(MARK, legs[0])
         stem = pattern.split(MARK)[0].rsplit("*", 1)[-1]
         matching = [name for name in known if fnmatch.fnmatchcase(name, first)]

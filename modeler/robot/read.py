@@ -423,10 +423,8 @@ def check_new_robot(place: Path, force: bool) -> None:
         ending = place.suffix or "no ending"
         raise DataError(f"{place}: got {ending}; expected a name such as arm.toml")
     if resolve_destination(place).kind is DestinationKind.FILE and not force:
-        raise DataError(
-            f"{place}: there is such a file; choose another name, or write over it with --force "
-            "(force=True)"
-        )
+        todo = "choose another name, or write over it with --force (force=True)"
+        raise DataError(f"{place}: there is such a file; {todo}")
 
 
 def fill_template(

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
     from tomlkit import TOMLDocument
     from tomlkit.items import Array, Item
 
+Words = Sequence[str]
+Cells = Sequence[Words]
+
 
 @dataclass(frozen=True)
 class ConvertedRobot:
@@ -46,9 +49,7 @@ class TextRow:
     comment: str = ""
 
 
-def format_head(
-    name: str, title: str, source: str, notes: Sequence[str], gravity: Sequence[str]
-) -> list[str]:
+def format_head(name: str, title: str, source: str, notes: Words, gravity: Words) -> list[str]:
     """Returns what stands above the first table.
 
     Args:
@@ -93,7 +94,7 @@ def format_number(value: float, scale: float = 0.0) -> str:
     return repr(short if abs(short) > slack else 0.0)
 
 
-def align_cells(cells: Sequence[Sequence[str]]) -> list[str]:
+def align_cells(cells: Cells) -> list[str]:
     """Returns rows of a table, cells below each other."""
     widths = [max(map(len, column)) + 2 for column in zip(*cells, strict=True)]
     padded = [zip(row, widths, strict=True) for row in cells]
@@ -101,9 +102,7 @@ def align_cells(cells: Sequence[Sequence[str]]) -> list[str]:
     return [line.rstrip().removesuffix(",") for line in lines]
 
 
-def format_columns_and_rows(
-    columns: Sequence[str], rows: Sequence[Sequence[str]], comments: Sequence[str] = ()
-) -> list[str]:
+def format_columns_and_rows(columns: Words, rows: Cells, comments: Words = ()) -> list[str]:
     """Returns `columns` and `rows` of a table, aligned; a comment behind every row that has one."""
     first, *lines = align_cells([[f'"{column}"' for column in columns], *rows])
     lines = [f"          [{line}]," for line in lines]
@@ -238,7 +237,7 @@ def replace_cell(text: str, row: int, column: int, cell: str) -> str:
     return head + new + rest
 
 
-def insert_row(text: str, after: int, cells: Sequence[str]) -> str:
+def insert_row(text: str, after: int, cells: Words) -> str:
     """Returns the text with a row more, behind the row of that number.
 
     Raises:
@@ -262,9 +261,7 @@ def remove_row(text: str, row: int) -> str:
     return document.as_string()
 
 
-def replace_table(
-    text: str, columns: Sequence[str], rows: Sequence[Sequence[str]], convention: str
-) -> str:
+def replace_table(text: str, columns: Words, rows: Cells, convention: str) -> str:
     """Returns the text with another table.
 
     Args:
@@ -349,13 +346,13 @@ def _get_item(items: "Array", number: int, what: str) -> Any:
     return items[number]
 
 
-def _build_array(cells: Sequence[str]) -> "Item":
+def _build_array(cells: Words) -> "Item":
     import tomlkit
 
     return tomlkit.value(f"[{', '.join(cells)}]")
 
 
-def _quote_cells(cells: Sequence[str], columns: Sequence[str], convention: str) -> list[str]:
+def _quote_cells(cells: Words, columns: Words, convention: str) -> list[str]:
     names = _NAMES[convention == "khalil"]
     return [quote_table_cell(c, n in names) for c, n in zip(cells, columns, strict=False)]
 

@@ -488,10 +488,8 @@ def _explain_length(antecedent: Any, rows: list[tuple[Row, RowPlace]], columns: 
         return ""
     if not is_length(antecedent) and (not letters or antecedent.isdigit()):
         return ""
-    return (
-        "; a is a length in the tables of others: "
-        f"{suggest_convention(columns, [r for r, _ in rows])}"
-    )
+    suggested = suggest_convention(columns, [row for row, _ in rows])
+    return f"; a is a length in the tables of others: {suggested}"
 
 
 def _find_cycle(name: str, antecedents: Mapping[str, str]) -> list[str]:
