@@ -343,12 +343,8 @@ def _complete_with_torques(robot: Robot, equations: Equations) -> ExportParamete
     before, stated, _ = build_prior(machine, robot, nothing, beta, none)
     size = _compute_sizes(machine, before)
     thin, others, moves, notes = list[str](), dict(machine.links), np.zeros(len(known)), list[str]()
-    carrying = {
-        row
-        for link, indices in machine.links.items()
-        if known[indices[9]] > 0.0
-        for row in _iterate_carrying_rows(robot, link)
-    }
+    heavy = [link for link, indices in machine.links.items() if known[indices[9]] > 0.0]
+    carrying = {row for link in heavy for row in _iterate_carrying_rows(robot, link)}
     for link, indices in machine.links.items():
         if link in carrying and not known[indices].any():
             del others[link]  # without a body, as in the C
@@ -362,13 +358,8 @@ def _complete_with_torques(robot: Robot, equations: Equations) -> ExportParamete
         del others[link]
         if smallest < THRESHOLDS.min_body_eigenvalue:
             thin.append(link)
-            known[indices] += (
-                max(
-                    THRESHOLDS.added_inertia_share * before.mean[indices[:6]].max(),
-                    2.0 * THRESHOLDS.min_moment_of_inertia,
-                )
-                * _ROUND
-            )
+            share = THRESHOLDS.added_inertia_share * before.mean[indices[:6]].max()
+            known[indices] += max(share, 2.0 * THRESHOLDS.min_moment_of_inertia) * _ROUND
     if thin:
         notes.append(
             f"link {', '.join(thin)}: a rod or a point as it is stated; "
@@ -562,13 +553,12 @@ def _find_projection(
         what = "stated as no machine could be built; the nearest that could is written"
         notes.append(f"{', '.join(first)}: {what}")
     elif first:
-        notes.append(
-            f"{', '.join(first)}: no body of these base parameters could be built; they moved by "
-            f"{whole.shift_in_sigmas:.2g} sigmas to the nearest that could"
-            if whole.shift_in_sigmas > 0.01
-            else f"{', '.join(first)}: "
-            f"what {_describe_undetermined(stated)} was moved so that it could be built"
-        )
+        names, moved = ", ".join(first), whole.shift_in_sigmas
+        note = f"what {_describe_undetermined(stated)} was moved so that it could be built"
+        if moved > 0.01:
+            note = "no body of these base parameters could be built; they moved by "
+            note += f"{moved:.2g} sigmas to the nearest that could"
+        notes.append(f"{names}: {note}")
     if not original.attached_inertia:
         return whole, frozenset(), notes
     floors = {link: original.attached_inertia.get(link, np.zeros(10)) for link in machine.links}

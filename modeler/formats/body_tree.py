@@ -343,16 +343,9 @@ def collect_moving_links(tree: BodyTree) -> list[MovingLink]:
             members.append({joint.child: Pose()})
             at = len(members) - 1
         link_of[joint.child] = at
-    return [
-        MovingLink(
-            joint,
-            parent,
-            pose,
-            link_bodies,
-            combine_inertials(_collect_inertials(tree, link_bodies)),
-        )
-        for (joint, parent, pose), link_bodies in zip(joints, members, strict=True)
-    ]
+    inertials = [combine_inertials(_collect_inertials(tree, bodies)) for bodies in members]
+    parts = zip(joints, members, inertials, strict=True)
+    return [MovingLink(*joint, bodies, inertial) for joint, bodies, inertial in parts]
 
 
 def _collect_inertials(tree: BodyTree, members: Mapping[str, Pose]) -> Iterator[Inertial]:
@@ -430,15 +423,12 @@ def _build_known_rotations() -> np.ndarray:
         cosine, sine = compute_cosine_sine(count * math.pi / 24)
         turns[axis, count, 0], turns[axis, count, axis + 1] = cosine, sine
     middle = [*range(7), *range(42, 48)]  # to a right angle
-    return np.concatenate(
-        [
-            _multiply_quaternions(
-                _multiply_quaternions(turns[i][:, None], turns[j][None, middle]).reshape(-1, 1, 4),
-                turns[k][None, :24],
-            ).reshape(-1, 4)
-            for i, j, k in itertools.permutations(range(3))
-        ]
-    )
+
+    def turn_thrice(i: int, j: int, k: int) -> np.ndarray:
+        two = _multiply_quaternions(turns[i][:, None], turns[j][None, middle])
+        return _multiply_quaternions(two.reshape(-1, 1, 4), turns[k][None, :24]).reshape(-1, 4)
+
+    return np.concatenate([turn_thrice(*axes) for axes in itertools.permutations(range(3))])
 
 
 def _multiply_quaternions(a: np.ndarray, b: np.ndarray) -> np.ndarray:

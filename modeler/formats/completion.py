@@ -132,12 +132,11 @@ def find_violations(
     floors: Mapping[str, np.ndarray],
 ) -> list[str]:
     """Returns links that could not be built, and parameters that are negative and must not."""
-    invalid_links = [
-        link
+    least = {
+        link: compute_smallest_eigenvalue(chi[indices] - floors[link], size[link])
         for link, indices in machine.links.items()
-        if compute_smallest_eigenvalue(chi[indices] - floors[link], size[link])
-        < THRESHOLDS.min_body_eigenvalue
-    ]
+    }
+    invalid_links = [link for link, x in least.items() if x < THRESHOLDS.min_body_eigenvalue]
     return invalid_links + [name for name, place in machine.positive.items() if chi[place] < 0.0]
 
 

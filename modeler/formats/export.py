@@ -375,12 +375,9 @@ def _build_sdf(physics: ExportParameters, parts: list[Part], names: Names) -> ET
     lift = Pose(np.zeros(3), _compute_upright_axes(compute_gravity(physics.robot)))
     base, keys = names.links[BASE], {"stiffness": "spring_stiffness", "rest": "spring_reference"}
     ends = _build_node("parent", "world"), _build_node("child", base)
-    model = _build_node(
-        "model",
-        _build_node("link", _build_pose_node(lift), name=base),
-        _build_node("joint", *ends, name=names.upright, type="fixed"),
-        name=physics.robot.name,
-    )
+    first = _build_node("link", _build_pose_node(lift), name=base)
+    upright = _build_node("joint", *ends, name=names.upright, type="fixed")
+    model = _build_node("model", first, upright, name=physics.robot.name)
     for part in parts:
         if part.body is None or not part.row.is_moving:
             frame_attributes = {"name": part.link, "attached_to": part.parent}
@@ -525,14 +522,10 @@ def _find_too_small(values: Iterable[Value], to: str) -> Iterator[str]:
     bodies: dict[str, list[float]] = {}
     for value in values:
         if value.quantity in TENSOR:
-            bodies.setdefault(value.part, []).append(value.after)
-    small = [
-        name
-        for name, six in bodies.items()
-        if 0.0
-        < np.linalg.eigvalsh(build_symmetric_matrix(np.array(six)))[0]
-        < THRESHOLDS.min_moment_of_inertia
-    ]
+            bodies.setdefault(value.part, []).append(value.now)
+    tensors = {name: build_symmetric_matrix(np.array(six)) for name, six in bodies.items()}
+    moments = {name: np.linalg.eigvalsh(tensor)[0] for name, tensor in tensors.items()}
+    small = [name for name, x in moments.items() if 0.0 < x < THRESHOLDS.min_moment_of_inertia]
     if small and to != "sdf":
         yield (
             f"{', '.join(small)}: too small for MuJoCo, which takes no moment of inertia below "

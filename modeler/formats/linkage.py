@@ -231,16 +231,10 @@ def locate_capsules(robot: Robot, q: Mapping[str, float]) -> list[tuple[str, str
     none = {*robot.platform[:-1], *robot.motors}
     if robot.capsules:
         none |= places.keys() - {capsule.row for capsule in robot.capsules}
-    return [
-        (
-            row,
-            on,
-            Capsule(
-                pose.transform_point(shape.end), shape.radius, pose.transform_point(shape.start)
-            ),
-        )
-        for row, shapes in build_capsules(robot, q).items()
-        if row not in none
-        for shape in shapes
-        for on, pose in [places[row]]
-    ]
+    located = []
+    for row, shapes in build_capsules(robot, q).items():
+        on, pose = places[row]
+        for shape in shapes if row not in none else ():
+            end, start = pose.transform_point(shape.end), pose.transform_point(shape.start)
+            located.append((row, on, Capsule(end, shape.radius, start)))
+    return located

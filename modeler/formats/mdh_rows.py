@@ -420,11 +420,7 @@ def compute_fixed_row(pose: Pose, free_about_z: bool) -> dict[str, float]:
     alpha = snap_angle(math.atan2(-rest.rotation[1, 2], rest.rotation[2, 2]))
     r = 0.0 if parallel else -y / math.sin(alpha)
     back = compute_cells_pose({"alpha": -alpha}).rotation @ rest.rotation
-    return {
-        "gamma": gamma,
-        "b": snap_length(z - r * math.cos(alpha)),
-        "alpha": alpha,
-        "d": snap_length(x),
-        "theta": 0.0 if free_about_z else snap_angle(math.atan2(back[1, 0], back[0, 0])),
-        "r": snap_length(r),
-    }
+    theta = 0.0 if free_about_z else snap_angle(math.atan2(back[1, 0], back[0, 0]))
+    b = snap_length(z - r * math.cos(alpha))
+    cells = (gamma, b, alpha, snap_length(x), theta, snap_length(r))
+    return dict(zip(GEOMETRY, cells, strict=True))

@@ -432,12 +432,8 @@ def _declare_letters(
     frames: Frames, counts: Counts, variables: dict[str, str], symbols: Symbols
 ) -> None:
     """Declare the letters of the geometry by distinct stand-ins; put our names for theirs."""
-    places = [
-        (letter, column)
-        for frame in frames
-        for column in GEOMETRY
-        for letter in sorted(frame.cells[column].names - variables.keys())
-    ]
+    cells = [(frame.cells[column], column) for frame in frames for column in GEOMETRY]
+    places = [(x, column) for cell, column in cells for x in sorted(cell.names - variables.keys())]
     letters = list(dict.fromkeys(letter for letter, _ in places))
     names = choose_symbol_names(letters, collect_reserved_names(counts.frames), symbols)
     lengths = {letter for letter, column in places if column not in ANGLES}

@@ -74,12 +74,8 @@ def find_lost_effects(
     g = float(np.linalg.norm(compute_gravity(robot)))
     if to != "mjcf" and abs(g - _USUAL) > THRESHOLDS.max_gravity_difference * _USUAL:
         lost_effects.append(LostEffect("size of gravity", "", {"g": g}))
-    stated_names = {
-        name
-        for joint in robot.moving_joints
-        for terms in physics.collect_drive_terms(joint.name, to).values()
-        for name in terms
-    }
+    joint_terms = [physics.collect_drive_terms(j.name, to) for j in robot.moving_joints]
+    stated_names = {name for terms in joint_terms for each in terms.values() for name in each}
     for joint in robot.moving_joints:
         for effect, form, instance in robot.find_joint_effects(joint.name):
             names = [f"{column.prefix}{joint.name}{instance.label}" for column in form.columns]
@@ -213,13 +209,9 @@ def keep_unchanged(now: np.ndarray, was: np.ndarray | None) -> np.ndarray:
     """
     if was is None:
         return now
-    return np.where(
-        np.abs(now - was)
-        <= THRESHOLDS.max_unchanged_difference
-        * np.maximum(compute_magnitudes(now), compute_magnitudes(was)),
-        was,
-        now,
-    )
+    size = np.maximum(compute_magnitudes(now), compute_magnitudes(was))
+    is_same = np.abs(now - was) <= THRESHOLDS.max_unchanged_difference * size
+    return np.where(is_same, was, now)
 
 
 def compute_sigmas(
@@ -244,13 +236,11 @@ def compute_sigmas(
         return None
     places, back = physics.find_link_indices(row), (pose or Pose()).inverse()
     spread = physics.completion.covariance[np.ix_(places, places)]
-    return propagate_deviations(
-        lambda ten: compute_central_parameters(
-            express_parameters(ten - attached_inertia, back), axes
-        ),
-        physics.completion.chi[places],
-        spread,
-    )
+
+    def compute_central(ten: np.ndarray) -> np.ndarray:
+        return compute_central_parameters(express_parameters(ten - attached_inertia, back), axes)
+
+    return propagate_deviations(compute_central, physics.completion.chi[places], spread)
 
 
 def build_body_values(
@@ -335,16 +325,11 @@ def _build_values_table(exported: Exported, values: Iterable[Value]) -> Table:
 
 
 def _build_lost_table(exported: Exported) -> Table:
-    rows = [
-        (
-            one.effect,
-            one.joint,
-            ", ".join(f"{n} = {x:.4g}" for n, x in one.values.items()),
-            one.share,
-            one.share_of,
-        )
-        for one in exported.lost_effects
+    texts = [
+        ", ".join(f"{n} = {x:.4g}" for n, x in one.values.items()) for one in exported.lost_effects
     ]
+    lost = zip(exported.lost_effects, texts, strict=True)
+    rows = [(one.effect, one.joint, text, one.share, one.share_of) for one, text in lost]
     head = "effect, joint, values, share, of"
     return Table.build(f"{exported.robot}: what {_format_title(exported)} cannot hold", head, rows)
 

@@ -323,9 +323,5 @@ def _is_same_body(one: np.ndarray, other: np.ndarray) -> bool:
     """Whether two bodies are the same but for rounding, in the same frame."""
     size, mass = max(np.abs([one[:6], other[:6]]).max(), 1e-300), max(abs(one[9]), abs(other[9]))
     moment = max(np.sqrt(size * mass), np.abs(other[6:9]).max())
-    return bool(
-        np.all(
-            np.abs(one - other)
-            <= THRESHOLDS.max_same_body_difference * np.repeat([size, moment, mass], [6, 3, 1])
-        )
-    )
+    scale = np.repeat([size, moment, mass], [6, 3, 1])
+    return bool(np.all(np.abs(one - other) <= THRESHOLDS.max_same_body_difference * scale))

@@ -121,14 +121,9 @@ def _apply_lock(tree: BodyTree, name: str, value: str | float) -> BodyTree:
         for other in tree.joints
         if other.leader == name
     }
-    return replace(
-        tree,
-        joints=tuple(fix_joint(j, stops[j.name]) if j.name in stops else j for j in tree.joints),
-        unsupported_joints={
-            key: description for key, description in tree.unsupported_joints.items() if key != name
-        },
-        notes=tuple(notes),
-    )
+    locked = tuple(fix_joint(j, stops[j.name]) if j.name in stops else j for j in tree.joints)
+    unsupported = {key: kind for key, kind in tree.unsupported_joints.items() if key != name}
+    return replace(tree, joints=locked, unsupported_joints=unsupported, notes=tuple(notes))
 
 
 def _read_position(place: TomlCell, joint: TreeJoint) -> float:
@@ -209,19 +204,10 @@ def _extract_subtree(
             notes.append(f"joint {quote_value(joint.name)} {description}")
     meetings = tuple(m for m in tree.loop_closures if m.body in bodies and m.other in bodies)
     notes += [f"left out with its body: {m.name}" for m in tree.loop_closures if m not in meetings]
-    return replace(
-        tree,
-        root=root,
-        bodies={name: body for name, body in tree.bodies.items() if name in bodies},
-        joints=tuple(joints),
-        loop_closures=meetings,
-        unsupported_joints={
-            name: description
-            for name, description in tree.unsupported_joints.items()
-            if name in names
-        },
-        notes=tuple(notes),
-    )
+    remaining = {name: body for name, body in tree.bodies.items() if name in bodies}
+    unsupported = {key: kind for key, kind in tree.unsupported_joints.items() if key in names}
+    tree = replace(tree, root=root, bodies=remaining, joints=tuple(joints), notes=tuple(notes))
+    return replace(tree, loop_closures=meetings, unsupported_joints=unsupported)
 
 
 def _check_supported(tree: BodyTree) -> BodyTree:

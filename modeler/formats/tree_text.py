@@ -85,13 +85,9 @@ def choose_independent_joints(tree: BodyTree) -> set[str]:
         return np.concatenate(errors)
 
     steps = THRESHOLDS.closure_difference_step * np.eye(len(q))
-    J = np.column_stack(
-        [
-            (compute_closure_errors(q + h) - compute_closure_errors(q - h))
-            / (2 * THRESHOLDS.closure_difference_step)
-            for h in steps
-        ]
-    )
+    errors = [(compute_closure_errors(q + h), compute_closure_errors(q - h)) for h in steps]
+    width = 2 * THRESHOLDS.closure_difference_step
+    J = np.column_stack([(after - before) / width for after, before in errors])
     rank, dependent = _compute_rank(J), list(range(len(names)))
     for k in range(len(names)):
         others = [i for i in dependent if i != k]
@@ -311,12 +307,11 @@ class _TreeWriter:
             f'{{joint = "{name}", q0 = {format_number(self.joints[name].rest)}, h = 0}}'
             for name in rows_by_effect.pop("spring")
         ]
-        unstated_effects = [
-            effect
-            for effect in rows_by_effect
-            if effect == "offset"
-            or not any(getattr(joint, _EFFECTS[effect][0]) for joint in self.joints.values())
-        ]
+        is_stated = {
+            effect: any(getattr(joint, key) for joint in self.joints.values())
+            for effect, (key, _) in _EFFECTS.items()
+        }
+        unstated_effects = [effect for effect in rows_by_effect if not is_stated.get(effect)]
         if unstated_effects:
             joints = "actuated joints" if self.loops else "joints"
             self.symbols.notes.append(
@@ -339,11 +334,9 @@ class _TreeWriter:
                 least = abs(whole.mass) * THRESHOLDS.min_mass_distance**2
                 inertia = max(*np.abs(ten[:6]).tolist(), least)
                 scales = [inertia] * 6 + [math.sqrt(abs(whole.mass) * inertia)] * 3 + [0.0]
+                numbers = zip(INERTIAL, ten.tolist(), scales, strict=True)
                 lines += [
-                    f"{prefix}{k} = {format_number(*number_and_scale)}"
-                    for prefix, *number_and_scale in zip(
-                        INERTIAL, ten.tolist(), scales, strict=True
-                    )
+                    f"{prefix}{k} = {format_number(x, scale)}" for prefix, x, scale in numbers
                 ]
             else:
                 unreliable_bodies.extend(link.bodies)

@@ -392,14 +392,12 @@ class LocatedElement:
 
     def find_children(self, *tags: str) -> "list[LocatedElement]":
         """Returns the children of the element with these tags."""
-        return [
-            LocatedElement(
-                e,
-                self._where,
-                f"{e.tag} {quote_value(name)}" if (name := _get_name(e)) else f"<{e.tag}>",
-            )
-            for e in self.element.find_children(*tags)
+        children = self.element.find_children(*tags)
+        spots = [
+            f"{e.tag} {quote_value(_get_name(e))}" if _get_name(e) else f"<{e.tag}>"
+            for e in children
         ]
+        return [LocatedElement(e, self._where, s) for e, s in zip(children, spots, strict=True)]
 
     def find_grandchildren(self, outer: str, inner: str) -> "list[LocatedElement]":
         """Returns the elements `inner` in all children `outer`."""

@@ -207,12 +207,9 @@ def read_relations(
                 "is a joint of its own"
             )
         row["mu"] = 0
-    relations = {
-        name: expression.rewrite(lambda tree: recognise_angle_terms(tree, rounded))
-        if kinds[name] is JointKind.REVOLUTE
-        else expression
-        for name, (expression, _) in stated_relations.items()
-    }
+    relations = {name: expression for name, (expression, _) in stated_relations.items()}
+    for name in [name for name in relations if kinds[name] is JointKind.REVOLUTE]:
+        relations[name] = relations[name].rewrite(lambda tree: recognise_angle_terms(tree, rounded))
     order = TopologicalSorter({f"q{name}": cell.names for name, cell in relations.items()})
     try:
         order.prepare()
@@ -392,15 +389,8 @@ def read_platform(place: TomlCell) -> tuple[list[tuple[Row, RowPlace]], tuple[st
     rows = []
     for step, row_name, antecedent in zip(_MOTIONS[motion], names, antecedents, strict=False):
         sigma = int(step[-1])
-        row: Row = {
-            "j": row_name,
-            "a": antecedent,
-            "mu": 0,
-            "sigma": sigma,
-            "gamma": "pi/2",
-            "alpha": "pi/2",
-            ("r" if sigma else "theta"): f"q{row_name}",
-        }
+        row: Row = dict.fromkeys(("gamma", "alpha"), "pi/2") | {"j": row_name, "a": antecedent}
+        row |= {"mu": 0, "sigma": sigma, ("r" if sigma else "theta"): f"q{row_name}"}
         rows.append((row, RowPlace(place.file, place.location, row=row_name)))
     return rows, tuple(names)
 

@@ -335,12 +335,9 @@ def read_table_rows(
     """
     example = format_table_example(convention)
     stated = {"convention": convention, **place.read_table(f"[mdh] {example}")}
-    table = place.with_value(stated).read_checked_table(
-        ("columns", "rows", "convention"),
-        "",
-        "expected columns, rows and convention only",
-        missing=f"write {example}",
-    )
+    keys = ("columns", "rows", "convention")
+    unknown, missing = "expected columns, rows and convention only", f"write {example}"
+    table = place.with_value(stated).read_checked_table(keys, "", unknown, missing)
     columns = read_khalil_columns(place.enter("columns", table["columns"]), convention)
     listed_rows = place.enter("rows", table["rows"]).read_list(example)
     count = len(listed_rows) + len(platform)
