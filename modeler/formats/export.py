@@ -268,8 +268,7 @@ def _build_urdf(physics: ExportParameters, parts: list[Part], names: Names) -> E
         shapes = (shape for capsule in part.capsules for shape in _build_visuals(capsule))
         link.extend(shapes if moves else ())
         limits = _collect_limits(physics, part.row) if moves else {}
-        kind = "prismatic" if part.row.kind is JointKind.PRISMATIC else "revolute"
-        kind = "fixed" if not moves else kind if limits else "continuous"
+        kind = part.row.kind.name.lower() if limits or not moves else "continuous"
         ends = _build_node("parent", link=part.parent), _build_node("child", link=part.link)
         joint = _build_node("joint", _build_origin(part.pose), *ends, name=part.joint, type=kind)
         if moves:
@@ -404,7 +403,7 @@ def _build_sdf(physics: ExportParameters, parts: list[Part], names: Names) -> ET
         for leader, ratio in part.leaders.items():
             law = {"multiplier": ratio, "offset": part.offset, "reference": 0.0}
             axis.append(_build_node("mimic", *_build_text_nodes(law), joint=leader))
-        kind = "prismatic" if part.row.kind is JointKind.PRISMATIC else "revolute"
+        kind = part.row.kind.name.lower()
         ends = _build_node("parent", part.parent), _build_node("child", part.link)
         model.extend([link, _build_node("joint", *ends, axis, name=part.joint, type=kind)])
     return _build_node("sdf", model, version="1.9")
