@@ -505,7 +505,6 @@ def _build_values(physics: ExportParameters, to: str) -> Iterator[Value]:
         if ten is not None and ten[9]:
             nominal = physics.get_nominal_parameters(joint.name)
             was = None if nominal is None else compute_central_parameters(nominal)
-            sigma = compute_sigmas(physics, joint.name)
             now, sigma = compute_central_parameters(ten), compute_sigmas(physics, joint.name)
             yield from build_body_values(names.links[joint.name], was, now, sigma)
         stated = {
@@ -521,7 +520,7 @@ def _find_too_small(values: Iterable[Value], to: str) -> Iterator[str]:
     bodies: dict[str, list[float]] = {}
     for value in values:
         if value.quantity in TENSOR:
-            bodies.setdefault(value.part, []).append(value.now)
+            bodies.setdefault(value.part, []).append(value.after)
     tensors = {name: build_symmetric_matrix(np.array(six)) for name, six in bodies.items()}
     moments = {name: np.linalg.eigvalsh(tensor)[0] for name, tensor in tensors.items()}
     small = [name for name, x in moments.items() if 0.0 < x < THRESHOLDS.min_moment_of_inertia]

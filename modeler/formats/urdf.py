@@ -45,7 +45,7 @@ from modeler.robot import LOOP_KINDS, JointKind
 
 Joints = dict[str, TreeJoint]
 Tell = Callable[[str, str], None]
-"""Adds a name to a sentence with {} that is told."""
+"""Adds a name to a sentence with {} that is reported."""
 Spots = Mapping[str, LocatedElement]
 
 _COUPLED = (
