@@ -2,7 +2,8 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
@@ -11,7 +12,7 @@ from modeler.codegen import derive, generate
 from modeler.core.errors import DataError, RobotError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import format_percent
-from modeler.diagnosis import scoring
+from modeler.diagnosis import candidates, result, scoring
 from modeler.diagnosis.added_model import (
     LogRows,
     LogSplit,
@@ -24,25 +25,12 @@ from modeler.diagnosis.added_model import (
     is_unneeded,
     read_catalogue,
 )
-from modeler.diagnosis.candidates import (
-    Candidate,
-    StatedEffects,
-    find_passive_joints,
-    list_body_parameters,
-    list_links,
-)
 from modeler.diagnosis.diagnosis import find_fixed_parameters
 from modeler.diagnosis.generation import estimate_instrumental
 from modeler.diagnosis.learn import ANY_LAW, LawRequest, LearnedLaw, learn_law
 from modeler.diagnosis.messages import format_location
 from modeler.diagnosis.plausibility import compute_gain_visibility, find_caveat, is_gain
 from modeler.diagnosis.profile import name_parameters
-from modeler.diagnosis.result import (
-    JOINTED,
-    FittedCandidate,
-    explain_exclusion,
-    explain_weak_evidence,
-)
 from modeler.diagnosis.search import extend_state, scan_candidates, scan_catalogue
 from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state
 from modeler.diagnosis.thresholds import THRESHOLDS
@@ -52,18 +40,13 @@ from modeler.regression import Observation
 from modeler.robot import join_names, parse_robot_text, suggest_name
 from modeler.runtime import CompiledModel, load_module
 
-if TYPE_CHECKING:
-    from modeler.diagnosis.result import Finding
-
-
 # Effects on joints without motor: robot files may have them there.
 
 
 def is_speed_effect(effect: Effect) -> bool:
     """Returns whether an effect of a joint depends on its speed alone."""
-    form = effect.forms[0]
-    pure = not form.nonlinear_parameters and form.names <= {"v"}
-    return pure and effect.acts is EffectTarget.JOINT
+    form, local = effect.forms[0], effect.acts is EffectTarget.JOINT
+    return local and not form.nonlinear_parameters and form.names <= {"v"}
 
 
 # What `add` is requested, checked before any log is looked at.
@@ -89,16 +72,16 @@ def resolve_effect(model: IdentifiedModel, name: str, joint: str | None) -> Effe
             f"{name}: no such effect{near}; "
             "`modeler effects` lists them, with --robot FILE those of a robot file too"
         )
-    if why := explain_exclusion(effect, model.spec):
+    if why := result.explain_exclusion(effect, model.spec):
         raise DataError(f"{effect.id}: cannot be added ({why})")
-    jointed = effect.acts in JOINTED
     if joint is not None:
         _check_joint(model.spec, effect, joint)
-    if effect.is_repeatable or not jointed:  # there may be several orders of ripples
+    if (
+        effect.is_repeatable or effect.acts not in result.JOINTED
+    ):  # several orders of ripples may be
         return effect
     present = {p.joint for p in model.spec.standard if p.effect == effect.id}
-    motors = {joint.name for joint in model.spec.joints if joint.actuated}
-    if joint in present or (joint is None and present and present >= motors):
+    if joint in present or (joint is None and present and present >= {*_list_motors(model.spec)}):
         where_it_is = "every joint" if joint is None else f"joint {joint}"
         raise DataError(f"{effect.id}: {where_it_is} has it in this model already")
     return effect
@@ -106,7 +89,7 @@ def resolve_effect(model: IdentifiedModel, name: str, joint: str | None) -> Effe
 
 def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
     """Effects act on joints with a motor, on joints that loops leave over, or on links."""
-    jointed, passive = effect.acts in JOINTED, list(find_passive_joints(spec))
+    jointed, passive = effect.acts in result.JOINTED, list(candidates.find_passive_joints(spec))
     if not jointed and (effect.acts is not EffectTarget.LINK or effect.is_on_last_link):
         raise DataError(
             f"--joint {joint}: {effect.id} acts on the whole robot, not on one joint; leave "
@@ -114,7 +97,7 @@ def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
         )
     names = _list_motors(spec) + (passive if is_speed_effect(effect) else [])
     if effect.acts in (EffectTarget.LINK, EffectTarget.PASSIVE):
-        names = list_links(spec) if effect.acts is EffectTarget.LINK else passive
+        names = candidates.list_links(spec) if effect.acts is EffectTarget.LINK else passive
     if joint not in names and joint in passive and jointed:
         raise DataError(
             f"--joint {joint}: it has no motor, and there {effect.id} cannot be found from logs; "
@@ -131,6 +114,9 @@ def _check_joint(spec: ModuleSpec, effect: Effect, joint: str) -> None:
 
 def _list_motors(spec: ModuleSpec) -> list[str]:
     return [joint.name for joint in spec.joints if joint.actuated]
+
+
+_Findings = Sequence[result.Finding]
 
 
 @dataclass(frozen=True, eq=False)
@@ -278,7 +264,7 @@ def _compute_parameter_shifts(before: IdentifiedModel, after: IdentifiedModel) -
     return {p.name: abs(now[p.name] - p.value) / p.sigma for p in known if p.sigma}
 
 
-def _explain_weak_evidence(pick: FittedCandidate, score: scoring.Score) -> str:
+def _explain_weak_evidence(pick: result.FittedCandidate, score: scoring.Score) -> str:
     """Why an effect that was requested is possible only; empty if it may be named."""
     candidate, whole = pick.candidate, score.whole
     errors = score.errors.get(candidate.joint or "", (whole.before, whole.after))
@@ -286,12 +272,12 @@ def _explain_weak_evidence(pick: FittedCandidate, score: scoring.Score) -> str:
     if candidate in pick.state.picks:
         parameters = name_parameters(pick.state, candidate, pick.values)
         against = find_caveat(pick.state, candidate, parameters)
-    return explain_weak_evidence(candidate, errors, against)
+    return result.explain_weak_evidence(candidate, errors, against)
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")
 def add_findings(
-    model: IdentifiedModel, compiled: CompiledModel, findings: Sequence["Finding"], logs: LogSplit
+    model: IdentifiedModel, compiled: CompiledModel, findings: _Findings, logs: LogSplit
 ) -> tuple[IdentifiedModel, tuple[str, ...]]:
     """Adds the effects of a diagnosis that lower the error; says why others are left out.
 
@@ -332,18 +318,15 @@ def add_findings(
     return better, tuple(left)
 
 
-def _add_drive_gains(
-    before: _FittedModel, findings: Sequence["Finding"]
-) -> tuple[_FittedModel, Sequence["Finding"]]:
+def _add_drive_gains(before: _FittedModel, findings: _Findings) -> tuple[_FittedModel, _Findings]:
     """The model with all drive gains, if there are several and it is better; what is left."""
-    gains = [f for f in findings if f.pick is not None and is_gain(f.pick.candidate)]
+    gains = {id(f): f.pick for f in findings if f.pick is not None and is_gain(f.pick.candidate)}
     if len(gains) < 2:
         return before, findings
     after = before
     try:
-        for finding in gains:
-            assert finding.pick is not None
-            after = _score_addition(after, finding.pick)[0]
+        for pick in gains.values():
+            after = _score_addition(after, pick)[0]
     except (DataError, RobotError):
         return before, findings
     first, last = (one.compute_held_out_residuals(True) for one in (before, after))
@@ -352,7 +335,7 @@ def _add_drive_gains(
     steps = after.model.history
     done = [replace(step, is_improvement=True) for step in steps[-len(gains) :]]
     after = after.replace_history((*steps[: -len(gains)], *done))
-    return after, [f for f in findings if f not in gains]
+    return after, [f for f in findings if id(f) not in gains]
 
 
 def remove_last_effect(model: IdentifiedModel, logs: LogSplit) -> IdentifiedModel:
@@ -363,12 +346,10 @@ def remove_last_effect(model: IdentifiedModel, logs: LogSplit) -> IdentifiedMode
     """
     if len(model.history) < 2:
         raise DataError("undo: no effect was added to this model; name one to add")
-    before = model.history[-2]
+    before, training = model.history[-2], LogSplit(logs.training)
     processing = replace(model.processing, delay=before.delay)
-    training = LogSplit(logs.training)
-    fitted = _fit_robot_file(
-        model, before.robot_text, lambda made: build_rows(made, training, processing)
-    )
+    build = partial(build_rows, logs=training, processing=processing)
+    fitted = _fit_robot_file(model, before.robot_text, build)
     return _complete_model(fitted.replace_history(model.history[:-1]))
 
 
@@ -380,18 +361,20 @@ def _build_state(before: _FittedModel, effect: Effect | None = None) -> State:
     fixed = find_fixed_parameters(model, rows.compiled, rows.logs.training, observation)
     if effect is not None and effect.acts is EffectTarget.LINK and fixed is None:
         fixed = model.beta
-    known = StatedEffects(robot.catalogue, robot.coupling)
+    known = candidates.StatedEffects(robot.catalogue, robot.coupling)
     return build_state(SearchData(rows.compiled, observation, fixed, known), (), model.beta)
 
 
-def _select_candidate(before: _FittedModel, effect: Effect, joint: str | None) -> FittedCandidate:
+def _select_candidate(
+    before: _FittedModel, effect: Effect, joint: str | None
+) -> result.FittedCandidate:
     """The effect at its best shapes, about the model with it."""
     state = _build_state(before, effect)
-    place = find_passive_joints(state.spec).get(joint or "")
+    place = candidates.find_passive_joints(state.spec).get(joint or "")
     if place is not None and is_speed_effect(effect):
         if state.spec.closure is not None:  # acting on all motors, by the speed that loops give it
             effect = replace(effect, acts=EffectTarget.PASSIVE)
-        scan = scan_candidates(state, [Candidate(effect, effect.forms[0], joint, place)])
+        scan = scan_candidates(state, [candidates.Candidate(effect, effect.forms[0], joint, place)])
     else:
         scan = scan_catalogue(state, only=effect.id, joint=joint)
     ranked = scan.judge_candidates().ranked
@@ -403,15 +386,15 @@ def _select_candidate(before: _FittedModel, effect: Effect, joint: str | None) -
     candidate, visible = ranked[0].candidate, ranked[0].visible_share
     if effect.acts is EffectTarget.TORQUE:  # least squares make delays too small
         delay = estimate_instrumental(state, candidate)[0]
-        return FittedCandidate(candidate, delay, state, visible)
+        return result.FittedCandidate(candidate, delay, state, visible)
     later = extend_state(state, candidate)  # a wrong gain bends the model whose torques it scales
     if is_gain(candidate):
         visible = compute_gain_visibility(later, 0)
-    return FittedCandidate(candidate, later.values[0], later, visible)
+    return result.FittedCandidate(candidate, later.values[0], later, visible)
 
 
 def _score_addition(
-    before: _FittedModel, pick: FittedCandidate
+    before: _FittedModel, pick: result.FittedCandidate
 ) -> tuple[_FittedModel, scoring.Score]:
     """The model with the effect, and whether it is the better one."""
     effect = pick.candidate.effect
@@ -426,16 +409,10 @@ def _score_addition(
     if not score.joints:
         raise DataError("no joint has a torque in these logs; expected logs of a robot that moves")
     history = before.model.history or (_build_history_step(before, score, 0),)
-    shapes = dict(pick.candidate.nonlinear_parameters)
-    step = replace(
-        _build_history_step(after, score, 1),
-        effect=effect.id,
-        joint=pick.candidate.joint,
-        nonlinear_parameters=shapes,
-        joints=score.errors,
-        changed_joints=score.changed_joints,
-        is_improvement=score.is_better,
-    )
+    step, shapes = _build_history_step(after, score, 1), dict(pick.candidate.nonlinear_parameters)
+    step = replace(step, effect=effect.id, joint=pick.candidate.joint, nonlinear_parameters=shapes)
+    changed, falls = score.changed_joints, score.is_better
+    step = replace(step, joints=score.errors, changed_joints=changed, is_improvement=falls)
     return after.replace_history((*history, step)), score
 
 
@@ -444,24 +421,19 @@ def _build_history_step(fitted: _FittedModel, score: scoring.Score, side: int) -
     model, rows = fitted.model, fitted.rows
     left = compute_residuals(model, rows.compiled, rows.fit_observation)
     errors = {name: pair[side] for name, pair in score.errors.items()}
-    return Addition(
-        "",
-        None,
-        {},
-        error=scoring.compute_rms_error(errors.values()),
-        training_error=scoring.compute_rms_error(scoring.compute_errors(left).values()),
-        held_out_logs=tuple(log.name for log in rows.logs.held_out),
-        robot_text=model.robot_text,
-        delay=model.processing.delay,
-        joints={name: (error, error) for name, error in errors.items()},
-    )
+    error, fit_errors = scoring.compute_rms_error(errors.values()), scoring.compute_errors(left)
+    held_out = tuple(log.name for log in rows.logs.held_out)
+    joints = {name: (error, error) for name, error in errors.items()}
+    shapes = dict[str, float]()
+    start = "", None, shapes, error, scoring.compute_rms_error(fit_errors.values()), held_out
+    return Addition(*start, model.robot_text, model.processing.delay, joints=joints)
 
 
-def _fit_with_candidate(before: _FittedModel, pick: FittedCandidate) -> _FittedModel:
+def _fit_with_candidate(before: _FittedModel, pick: result.FittedCandidate) -> _FittedModel:
     """The model with the effect, fitted; with a body more on a link, nothing else is."""
     model, rows, effect = before.model, before.rows, pick.candidate.effect
     if effect.acts is EffectTarget.LINK:
-        body = list_body_parameters(pick.candidate, pick.state.rows.signals[0])
+        body = candidates.list_body_parameters(pick.candidate, pick.state.rows.signals[0])
         names = [p.name for p in model.spec.standard]
         chi = np.eye(len(names))[[names.index(p.name) for p in body]]
         free = np.column_stack([rows.compiled.base_parameters(one) for one in chi])
@@ -472,9 +444,8 @@ def _fit_with_candidate(before: _FittedModel, pick: FittedCandidate) -> _FittedM
     if effect.acts is EffectTarget.TORQUE:
         seen = pick.state.data.observation.report.processing
         processing = replace(model.processing, delay=seen.delay + float(pick.values[0]))
-        return _fit_robot_file(
-            model, model.robot_text, lambda made: build_rows(made, rows.logs, processing)
-        )
+        build = partial(build_rows, logs=rows.logs, processing=processing)
+        return _fit_robot_file(model, model.robot_text, build)
     text = insert_candidate(model.robot_text, pick.candidate, pick.values, pick.state.reference)
     return _fit_robot_file(model, text, rows.rebuild_for)
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from modeler import regression
 from modeler.core.errors import DataError, RobotError
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.learn import LEARNED, LearnedLaw, choose_free_name, make_effect_id
@@ -25,17 +26,6 @@ from modeler.estimation import (
     format_spread,
 )
 from modeler.numerics.least_squares import compute_column_norms
-from modeler.regression import (
-    Log,
-    Observation,
-    PreparedLogs,
-    Processing,
-    build_observation,
-    compute_model_torque,
-    find_shafts,
-    prepare_logs,
-    rebuild_observation,
-)
 from modeler.robot import (
     insert_coupling,
     insert_effect,
@@ -48,7 +38,7 @@ from modeler.runtime import CompiledModel
 
 
 def add_nonlinear_uncertainty(
-    model: IdentifiedModel, compiled: CompiledModel, observation: Observation
+    model: IdentifiedModel, compiled: CompiledModel, observation: regression.Observation
 ) -> IdentifiedModel:
     """Adds the uncertainty of fitted nonlinear parameters to all standard deviations.
 
@@ -72,11 +62,8 @@ def add_nonlinear_uncertainty(
         if along is None:
             continue
         model = _widen_covariance(model, along, effect_columns)
-        history[i] = replace(
-            step,
-            nonlinear_sigmas=along.compute_nonlinear_deviations(),
-            nonlinear_intervals=along.compute_nonlinear_intervals(),
-        )
+        sigmas, ends = along.compute_nonlinear_deviations(), along.compute_nonlinear_intervals()
+        history[i] = replace(step, nonlinear_sigmas=sigmas, nonlinear_intervals=ends)
     return replace(model, history=tuple(history))
 
 
@@ -90,8 +77,8 @@ def _rebuild_candidate(model: IdentifiedModel, step: Addition) -> Candidate | No
     effect = find_effect(step.effect, read_catalogue(model))
     if effect is None or effect.acts is not EffectTarget.JOINT or not step.nonlinear_parameters:
         return None
-    choices = [({shape.name for shape in f.nonlinear_parameters}, f) for f in effect.forms]
-    forms = [form for shapes, form in choices if shapes == set(step.nonlinear_parameters)]
+    named = set(step.nonlinear_parameters)
+    forms = [f for f in effect.forms if {s.name for s in f.nonlinear_parameters} == named]
     names = [joint.name for joint in model.spec.joints]
     if not forms or step.joint not in names:
         return None
@@ -138,8 +125,7 @@ def _widen_covariance(
         replace(p, sigma=float(sigma[i]), interval=intervals.get(i, p.interval)) if known[i] else p
         for i, p in enumerate(fit.parameters)
     )
-    better = replace(fit, parameters=parameters, covariance=covariance)
-    return replace(model, fit=better)
+    return replace(model, fit=replace(fit, parameters=parameters, covariance=covariance))
 
 
 # The robot file with one effect more.
@@ -174,8 +160,7 @@ def insert_candidate(
         text = _insert_coupling(text, pick, reference)
     parameters = _collect_nonlinear_parameters(pick, reference)
     changed = insert_effect(text, effect.id, pick.joint, parameters)
-    names = frozenset().union(*(form.names for form in effect.forms))
-    depends = not names.isdisjoint({"load", "static", "torque"})
+    depends = any(form.names & {"load", "static", "torque"} for form in effect.forms)
     depends = depends or effect.acts is EffectTarget.POSITION
     return replace_reference(changed, _build_reference(reference)) if depends else changed
 
@@ -318,10 +303,10 @@ def is_unneeded(model: IdentifiedModel, step: Addition) -> bool:
 
 def _format_nonlinear_units(model: IdentifiedModel, step: Addition) -> dict[str, str]:
     """What stands behind the values of the shapes."""
-    effect = find_effect(step.effect, read_catalogue(model))
+    effect, linear = find_effect(step.effect, read_catalogue(model)), step.joint
     assert effect is not None
     shapes = [shape for form in effect.forms for shape in form.nonlinear_parameters]
-    units = {shape.name: shape.get_unit(is_prismatic(model.spec, step.joint)) for shape in shapes}
+    units = {shape.name: shape.get_unit(is_prismatic(model.spec, linear)) for shape in shapes}
     return {name: f" {unit}" for name, unit in units.items() if unit != "1"}
 
 
@@ -367,11 +352,11 @@ def _describe_error_change(name: str, step: Addition) -> str:
 class LogSplit:
     """What the model is fitted to, and what it is judged on."""
 
-    training: Sequence[Log]
-    held_out: Sequence[Log] = ()
+    training: Sequence[regression.Log]
+    held_out: Sequence[regression.Log] = ()
 
     @property
-    def log_sets(self) -> list[Sequence[Log]]:
+    def log_sets(self) -> list[Sequence[regression.Log]]:
         """Returns the sets that hold logs: the training logs first."""
         return [self.training, self.held_out] if self.held_out else [self.training]
 
@@ -389,23 +374,25 @@ class LogRows:
 
     logs: LogSplit
     compiled: CompiledModel
-    prepared: tuple[PreparedLogs, ...]
-    observations: tuple[Observation, ...]
+    prepared: tuple[regression.PreparedLogs, ...]
+    observations: tuple[regression.Observation, ...]
 
     @property
-    def fit_observation(self) -> Observation:
+    def fit_observation(self) -> regression.Observation:
         """Returns the observation that a model is fitted to."""
         return self.observations[0]
 
     def rebuild_for(self, compiled: CompiledModel) -> "LogRows":
         """Returns the rows of the same robot with other effects; nothing is filtered again."""
-        if find_shafts(compiled) == find_shafts(self.compiled):
-            seen = tuple(rebuild_observation(compiled, x) for x in self.observations)
+        if regression.find_shafts(compiled) == regression.find_shafts(self.compiled):
+            seen = tuple(regression.rebuild_observation(compiled, x) for x in self.observations)
             return replace(self, compiled=compiled, observations=seen)
         return _observe_rows(compiled, self.logs, self.prepared)
 
 
-def build_rows(compiled: CompiledModel, logs: LogSplit, processing: Processing) -> LogRows:
+def build_rows(
+    compiled: CompiledModel, logs: LogSplit, processing: regression.Processing
+) -> LogRows:
     """Builds the rows of logs.
 
     Args:
@@ -416,29 +403,30 @@ def build_rows(compiled: CompiledModel, logs: LogSplit, processing: Processing) 
     Raises:
         DataError: no usable row.
     """
-    prepared = tuple(prepare_logs(compiled.spec, some, processing) for some in logs.log_sets)
+    spec, sets = compiled.spec, logs.log_sets
+    prepared = tuple(regression.prepare_logs(spec, some, processing) for some in sets)
     return _observe_rows(compiled, logs, prepared)
 
 
 def _observe_rows(
-    compiled: CompiledModel, logs: LogSplit, prepared: tuple[PreparedLogs, ...]
+    compiled: CompiledModel, logs: LogSplit, prepared: tuple[regression.PreparedLogs, ...]
 ) -> LogRows:
     pairs = zip(logs.log_sets, prepared, strict=True)
-    observations = tuple(build_observation(compiled, *pair) for pair in pairs)
+    observations = tuple(regression.build_observation(compiled, *pair) for pair in pairs)
     return LogRows(logs, compiled, prepared, observations)
 
 
 def compute_residuals(
-    model: IdentifiedModel, compiled: CompiledModel, observation: Observation
+    model: IdentifiedModel, compiled: CompiledModel, observation: regression.Observation
 ) -> Residuals:
     """Computes the residuals of the model on logs."""
-    left = observation.torque - compute_model_torque(observation, compiled, model.beta)
+    left = observation.torque - regression.compute_model_torque(observation, compiled, model.beta)
     parts = [left[used, j] for j, used in enumerate(observation.used.T)]
     return _build_residuals(observation, parts)
 
 
 def cross_validate_residuals(
-    model: IdentifiedModel, observation: Observation, free: np.ndarray | None = None
+    model: IdentifiedModel, observation: regression.Observation, free: np.ndarray | None = None
 ) -> Residuals:
     """Computes cross-validated residuals: each eighth predicted from a fit to the others.
 
@@ -463,12 +451,8 @@ def cross_validate_residuals(
     return _build_residuals(observation, parts)
 
 
-def _build_residuals(observation: Observation, left: list[np.ndarray]) -> Residuals:
-    used = observation.used.T
-    return Residuals(
-        tuple(joint.name for joint in observation.joints),
-        tuple(left),
-        tuple(observation.torque[used_rows, j] for j, used_rows in enumerate(used)),
-        tuple(observation.time[used_rows] for used_rows in used),
-        tuple(observation.run[used_rows] for used_rows in used),
-    )
+def _build_residuals(observation: regression.Observation, left: list[np.ndarray]) -> Residuals:
+    used, names = observation.used.T, tuple(joint.name for joint in observation.joints)
+    torque = tuple(observation.torque[rows, j] for j, rows in enumerate(used))
+    time, run = (tuple(of[rows] for rows in used) for of in (observation.time, observation.run))
+    return Residuals(names, tuple(left), torque, time, run)

@@ -3,6 +3,7 @@
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -61,15 +62,9 @@ class JointScale:
     def get_unit(self, shape: NonlinearParameter) -> float:
         """Returns the SI value of 1 in the grid of a nonlinear parameter."""
         travel = 1.0 if self.angular else self.range / 3.0
-        units = {
-            "speed": self.speed,
-            "travel": travel,
-            "place": travel,
-            "bend": travel**-2,
-            "turn": 1.0 if self.angular else 2.0 * np.pi / self.range,
-            "load": self.load,
-        }
-        return units.get(shape.scale, 1.0)
+        turn = 1.0 if self.angular else 2.0 * np.pi / self.range
+        units = {"speed": self.speed, "travel": travel, "place": travel, "bend": travel**-2}
+        return (units | {"turn": turn, "load": self.load}).get(shape.scale, 1.0)
 
     def scale_value(self, shape: NonlinearParameter, entry: float) -> float:
         """Converts an entry of a grid or a limit of a nonlinear parameter to SI."""
@@ -140,7 +135,7 @@ class Candidate(ShortRepr):
     ) -> "Candidate":
         """Returns the same effect with other encoded values of some parameters."""
         pairs = zip(shapes, x, strict=True)
-        values = {shape.name: decode_parameter(shape, v) for shape, v in pairs}
+        values = {s.name: float(np.exp(v) if s.limits[0] > 0.0 else v) for s, v in pairs}
         return replace(self, nonlinear_parameters={**self.nonlinear_parameters, **values})
 
     def encode_parameters(self, shapes: Sequence[NonlinearParameter]) -> np.ndarray:
@@ -180,11 +175,6 @@ def encode_parameter(shape: NonlinearParameter, value: float) -> float:
     return float(np.log(value)) if shape.limits[0] > 0.0 else value
 
 
-def decode_parameter(shape: NonlinearParameter, x: float) -> float:
-    """Decodes an encoded parameter."""
-    return float(np.exp(x)) if shape.limits[0] > 0.0 else float(x)
-
-
 def list_candidates(
     spec: ModuleSpec,
     scales: Sequence[JointScale],
@@ -216,7 +206,8 @@ def list_candidates(
                 if missing and turning and _is_representative(effect, joint.name, known, allowed):
                     warm = has_temperature.get(joint.name, False)
                     form = next((f for f in effect.forms if warm or "T" not in f.names), None)
-                    if form is not None and _has_logged_others(form, joint.name, spec):
+                    others = {other.name for other in spec.joints} - {joint.name}  # in the logs
+                    if form and {name[1:] for name in form.other_joint_names} <= others:
                         results += expand_grid(effect, form, joint.name, j, scales[j])
             if Requirement.LAG in effect.needs and len(spec.joints) > 1:
                 whole = replace(effect, acts=EffectTarget.TORQUE)
@@ -226,14 +217,11 @@ def list_candidates(
         elif effect.acts is EffectTarget.MOTOR:
             results += _generate_motor_candidates(spec, effect, present, known)
         elif effect.acts is EffectTarget.PASSIVE and spec.closure is not None:
-            results += _generate_passive_candidates(spec, effect, present)
+            rubbing = {joint for of, joint in present if of in (*PASSIVE_FRICTION_IS, effect.id)}
+            places = find_passive_joints(spec).items()
+            free = [(name, place) for name, place in places if name not in rubbing]
+            results += [Candidate(effect, effect.forms[0], name, place) for name, place in free]
     return [candidate for candidate in results if allowed(*candidate.key)]
-
-
-def _has_logged_others(form: Form, joint: str, spec: ModuleSpec) -> bool:
-    """True if the other joints that it reads are in the logs, and are others."""
-    logged = {joint_spec.name for joint_spec in spec.joints} - {joint}
-    return all(name[1:] in logged for name in form.other_joint_names)
 
 
 def _is_representative(
@@ -252,11 +240,10 @@ def expand_grid(
     effect: Effect, form: Form, joint: str | None, index: int, scale: JointScale
 ) -> Iterator[Candidate]:
     """Expands an effect on a joint over the grids of its parameters."""
-    names = [shape.name for shape in form.nonlinear_parameters]
     shapes = form.nonlinear_parameters
-    grids = [[scale.scale_value(shape, entry) for entry in shape.grid] for shape in shapes]
+    grids = [[(s.name, scale.scale_value(s, entry)) for entry in s.grid] for s in shapes]
     for values in itertools.product(*grids):
-        yield Candidate(effect, form, joint, index, dict(zip(names, values, strict=True)))
+        yield Candidate(effect, form, joint, index, dict(values))
 
 
 def _generate_motor_candidates(
@@ -277,45 +264,24 @@ def _generate_motor_candidates(
                 yield Candidate(effect, form, here.name, j, {"c": ratio}, {j - 1: ratio, j: 1.0})
 
 
-def _generate_passive_candidates(
-    spec: ModuleSpec, effect: Effect, present: Set[tuple[str, str]]
-) -> Iterator[Candidate]:
-    rubbing = {joint for of, joint in present if of in (*PASSIVE_FRICTION_IS, effect.id)}
-    for name, place in find_passive_joints(spec).items():
-        if name not in rubbing:
-            yield Candidate(effect, effect.forms[0], name, place)
-
-
 def compute_scales(
     spec: ModuleSpec, q: Sequence[np.ndarray], v: Sequence[np.ndarray], load: Sequence[np.ndarray]
 ) -> list[JointScale]:
     """Computes the scale of every joint from samples (n, J) of all segments."""
     positions, speeds, loads = (np.concatenate(list(x)) for x in (q, v, load))
-    return [
-        JointScale(
-            speed=float(np.quantile(np.abs(speeds[:, j]), 0.98)) or 1.0,
-            range=float(np.ptp(positions[:, j])) or 1.0,
-            load=float(np.sqrt(np.mean(loads[:, j] ** 2))) or 1.0,
-            angular=spec.joints[j].unit == "rad",
-            middle=float(0.5 * (positions[:, j].min() + positions[:, j].max())),
-        )
-        for j in range(positions.shape[1])
-    ]
+    scales = []
+    for joint, x, speed, torque in zip(spec.joints, positions.T, speeds.T, loads.T, strict=True):
+        top, rms = float(np.quantile(np.abs(speed), 0.98)), float(np.sqrt(np.mean(torque**2)))
+        size, middle = float(np.ptp(x)) or 1.0, float(0.5 * (x.min() + x.max()))
+        scales.append(JointScale(top or 1.0, size, rms or 1.0, joint.unit == "rad", middle))
+    return scales
 
 
 # The columns of a candidate over the samples of a segment: the catalogue's equations in numpy.
 
 
-FUNCTIONS = {
-    "sin": np.sin,
-    "cos": np.cos,
-    "tan": np.tan,
-    "sqrt": np.sqrt,
-    "exp": np.exp,
-    "abs": np.abs,
-    "sign": np.sign,
-    "tanh": np.tanh,
-}
+FUNCTIONS = {f.__name__: f for f in (np.sin, np.cos, np.tan, np.sqrt, np.exp, np.sign, np.tanh)}
+FUNCTIONS["abs"] = np.abs
 
 
 def evaluate_equations(
@@ -483,9 +449,7 @@ class Rows(ShortRepr):
         """Builds the columns of a candidate on these rows."""
         if candidate.is_local or candidate.effect.acts is EffectTarget.POSITION:
             return self._build_stacked([candidate])
-        if (
-            candidate.effect.acts is EffectTarget.TORQUE and not candidate.is_delay
-        ):  # alike on every joint
+        if candidate.effect.acts is EffectTarget.TORQUE and not candidate.is_delay:  # on all alike
             alone = [replace(candidate, index=j) for j in range(self.joint_count)]
             each = ([evaluate_equations([c], s) for c in alone] for s in self.signals)
             values = [np.stack(columns, axis=1) for columns in each]
@@ -501,13 +465,9 @@ class Rows(ShortRepr):
         columns = [None if c is None else np.ascontiguousarray(c.T) for c in whole]
         size = len(first.form.columns)
         # a candidate may leave joints alone that its neighbours move
-        return [
-            tuple(
-                None if c is None or not c[k : k + size].any() else c[k : k + size].T
-                for c in columns
-            )
-            for k in range(0, size * len(candidates), size)
-        ]
+        starts = range(0, size * len(candidates), size)
+        parts = ([None if c is None else c[k : k + size].T for c in columns] for k in starts)
+        return [tuple(c if c is not None and c.any() else None for c in part) for part in parts]
 
     def _build_stacked(self, candidates: Sequence[Candidate]) -> Columns:
         """Columns of candidates of one effect on its joint, beside each other."""
@@ -518,9 +478,9 @@ class Rows(ShortRepr):
         values = [evaluate_equations(candidates, s) for s in signals]
         if first.is_local:
             return self._filter_joint(j, lambda i, w: values[i][w])
-        return self.filter_joints(
-            lambda i, w: signals[i].compute_displacement_torque(j, values[i], whole, w)
-        )
+        pairs = zip(signals, values, strict=True)
+        every = [partial(s.compute_displacement_torque, j, x, whole) for s, x in pairs]
+        return self.filter_joints(lambda i, w: every[i](w))
 
     def _filter_joint(self, j: int, evaluate: Evaluate) -> Columns:
         """Columns of one joint from its values (samples, k)."""
@@ -571,18 +531,12 @@ def build_rows(observation: Observation, reference: SignalReference) -> Rows:
         signals.append(Signals(s, part.usable, s.q, s.qd, s.qdd, reference))
         pairs = zip(part.used.T, part.usable.T, strict=True)
         filters = (restrict_weights(part.rows.weights, usable)[used] for used, usable in pairs)
-        joint_filters = [_normalise_rows(weights) for weights in filters]
-        blocks.append(_split_blocks(joint_filters, s.samples))
-    counted = list(observation.used.T)
-    return Rows(
-        y=tuple(observation.torque[rows, j] for j, rows in enumerate(counted)),
-        W=build_base_columns(blocks, signals),
-        time=tuple(observation.time[rows] for rows in counted),
-        run=tuple(observation.run[rows] for rows in counted),
-        segment=tuple(observation.segment[rows] for rows in counted),
-        blocks=tuple(blocks),
-        signals=tuple(signals),
-    )
+        blocks.append(_split_blocks([_normalise_rows(weights) for weights in filters], s.samples))
+    counted, made = list(observation.used.T), build_base_columns(blocks, signals)
+    y = tuple(observation.torque[rows, j] for j, rows in enumerate(counted))
+    every = observation.time, observation.run, observation.segment
+    time, run, segment = (tuple(of[rows] for rows in counted) for of in every)
+    return Rows(y, made, time, run, segment, tuple(blocks), tuple(signals))
 
 
 def thin_samples(observation: Observation, compiled: "CompiledModel") -> Observation:
@@ -623,13 +577,8 @@ def _split_blocks(filters: Sequence[csr_array], samples: int) -> tuple[RowBlock,
     for start, *ends in zip(starts.tolist(), *(pairwise(bounds) for bounds in edges), strict=True):
         parts = [weights[slice(*bounds)] for weights, bounds in zip(filters, ends, strict=True)]
         stop = max(int(part.indices.max(initial=start)) for part in parts) + 1
-        made = [
-            csr_array(
-                (p.data, *map(np.int32, (p.indices - start, p.indptr))),
-                shape=(p.shape[0], stop - start),
-            )
-            for p in parts
-        ]
+        ends = [(p.data, *map(np.int32, (p.indices - start, p.indptr))) for p in parts]
+        made = [csr_array(x, shape=(len(x[2]) - 1, stop - start)) for x in ends]
         row_blocks.append(RowBlock(slice(start, stop), tuple(made)))
     return tuple(row_blocks)
 

@@ -8,16 +8,9 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from modeler.core.errors import DataError
+from modeler.diagnosis import findings
 from modeler.diagnosis.candidates import StatedEffects, thin_samples
 from modeler.diagnosis.events import compute_burst_ratio, find_contact_window, fit_push_torque
-from modeler.diagnosis.findings import (
-    BandSearch,
-    CrossCheckData,
-    assemble_diagnosis,
-    cross_check_effects,
-    evaluate_search,
-    find_changed_parameters,
-)
 from modeler.diagnosis.generation import estimate_logger_shift, generate_candidates
 from modeler.diagnosis.messages import exclude_friction, find_faults
 from modeler.diagnosis.plausibility import find_gravity_confounders
@@ -132,55 +125,57 @@ def diagnose(
         veto = make_veto(other)
         return search_effects(data, model.beta, without, most, veto, stages.advance, named_steps)
 
-    def search_bands() -> list[BandSearch]:
+    def search_bands() -> list[findings.BandSearch]:
         """Searches the band of the diagnosis, then a wider one with all that is named."""
-        made: list[BandSearch] = []
+        made: list[findings.BandSearch] = []
         far = beyond if beyond is not None and get_cutoff(beyond) > get_cutoff(data) else None
         far_held_out = None if far is None else _prepare_holdout(far, holdout)
         for band_data, held in ((data, other), (far, far_held_out)):
             if band_data is None:
                 continue
-            band_search = run_search(band_data, held, made[0].named_steps if made else ())
+            search = run_search(band_data, held, made[0].named_steps if made else ())
             second = data if made else beyond
-            check_data = list[CrossCheckData]()
+            check_data = list[findings.CrossCheckData]()
             if held is not None:
-                check_data.append(CrossCheckData("in the held-out logs", held, False))
+                check_data.append(findings.CrossCheckData("in the held-out logs", held, False))
             if second is not None:
-                check_data.append(CrossCheckData(f"up to {get_cutoff(second):.2g} Hz", second))
-            checks = cross_check_effects(band_search, check_data, stages.advance)
-            made.append(evaluate_search(band_search, held, checks, stages.advance))
+                check_data.append(
+                    findings.CrossCheckData(f"up to {get_cutoff(second):.2g} Hz", second)
+                )
+            checks = findings.cross_check_effects(search, check_data, stages.advance)
+            made.append(findings.evaluate_search(search, held, checks, stages.advance))
         return made
 
-    band_searches = search_bands()
-    aligned = _align_logger_delay(data, band_searches[0].search, model, repair)
+    bands = search_bands()
+    aligned = _align_logger_delay(data, bands[0].search, model, repair)
     if aligned is not None:
         data, other = aligned, _prepare_holdout(aligned, holdout)
         beyond = _find_other_band(data, model, repair)
-        band_searches = search_bands()
+        bands = search_bands()
     pushes = [e for e in data.stated_effects.catalogue if e.acts is EffectTarget.WINDOW]
     may_push = [effect for effect in pushes if effect.id not in without]
-    window = _detect_push(band_searches[-1].search) if may_push else None
+    window = _detect_push(bands[-1].search) if may_push else None
     if window is not None:
         data = _mask_window(data, window)
         beyond = None if beyond is None else _mask_window(beyond, window)
-        band_searches = search_bands()
+        bands = search_bands()
     stages.begin_stage(_NAMED if equations else 1.0)
-    changed_parameters = tuple[ParameterChange, ...]()
+    changes = tuple[ParameterChange, ...]()
     if other is not None and limit:
-        first, left = band_searches[0].search, band_searches[0].held_out_residuals[-1]
-        changed_parameters = find_changed_parameters(model, first, other, left, holdout)
-    diagnosis = assemble_diagnosis(model, band_searches, window, faults, changed_parameters)
+        first, left = bands[0].search, bands[0].held_out_residuals[-1]
+        changes = findings.find_changed_parameters(model, first, other, left, holdout)
+    diagnosis = findings.assemble_diagnosis(model, bands, window, faults, changes)
     if equations and limit:
         stages.begin_stage(1.0)
         facts = [(f.effect, f.joint) for f in diagnosis.effects if f.status == "confirmed"]
-        band = band_searches[0]
+        band = bands[0]
         discoveries = discover_equations(band.search, facts, band.other, stages.advance)
         diagnosis = replace(diagnosis, discoveries=discoveries)
     if progress is not None:
         progress(1.0)
 
     line = describe_bands(model.processing, data.observation.report.processing)
-    line += _describe_gravity_confounders(diagnosis, band_searches[0].search, without)
+    line += _describe_gravity_confounders(diagnosis, bands[0].search, without)
     sentences = (*diagnosis.sentences, *line)
     return replace(diagnosis, sentences=sentences, errors=errors)
 

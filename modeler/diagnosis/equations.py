@@ -66,6 +66,9 @@ _Priced = tuple[float, _ProductColumn, _ProductColumn | None]
 """Nats, a column, and the factor that it is multiplied by."""
 
 
+_Columns = Sequence[_ProductColumn]
+
+
 def _by_cost(formulas: Iterable[ScoredFormula]) -> list[ScoredFormula]:
     return sorted(formulas, key=lambda item: item.cost)
 
@@ -161,9 +164,7 @@ class JointSearch:
         columns = {c.term[0].equations[0]: c for c in parameter_free}
         return {text: columns[text] for text in _PLAIN if text in columns}
 
-    def rank_products(
-        self, left: Sequence[_ProductColumn], keep: int, state: State | None = None
-    ) -> list[_Priced]:
+    def rank_products(self, left: _Columns, keep: int, state: State | None = None) -> list[_Priced]:
         """Ranks the cheapest products of a column and a wave-free factor.
 
         Args:
@@ -210,9 +211,7 @@ class JointSearch:
         fall = np.einsum("ki,ki->k", side, np.linalg.solve(gram, side[..., None])[..., 0])
         return np.nan_to_num(fall)
 
-    def rank_columns(
-        self, columns: Sequence[_ProductColumn], state: State | None = None
-    ) -> list[_Priced]:
+    def rank_columns(self, columns: _Columns, state: State | None = None) -> list[_Priced]:
         """Ranks columns as they are, the cheapest first."""
         ranked, chunk = list[_Priced](), THRESHOLDS.column_chunk
         for k, width in itertools.product(range(0, len(columns), chunk), (1, 2)):
@@ -234,11 +233,9 @@ class JointSearch:
             c = column.values
             basis = np.vstack([c, 1j * (base.T @ c)])  # products are those of columns off the model
             basis = basis @ _compute_whitening((basis.T @ basis).real)
-            shared = (
-                float(np.linalg.norm((basis.T @ x).real) ** 2 / min(len(basis.T), len(x.T)))
-                for x, _ in selected
-            )
-            if basis.size and all(share < alike**2 for share in shared):
+            least = [min(len(basis.T), len(x.T)) * alike**2 for x, _ in selected]
+            shared = [float(np.linalg.norm((basis.T @ x).real)) ** 2 for x, _ in selected]
+            if basis.size and all(a < b for a, b in zip(shared, least, strict=True)):
                 selected.append((basis, column))
             if len(selected) == keep:
                 break
@@ -330,9 +327,7 @@ class JointSearch:
         formulas = self.improve_formulas([*single, *double])
         return self.drop_equivalent(self.update_costs(formulas))
 
-    def search_sums(
-        self, first: ScoredFormula, seconds: Sequence[_ProductColumn]
-    ) -> list[ScoredFormula]:
+    def search_sums(self, first: ScoredFormula, seconds: _Columns) -> list[ScoredFormula]:
         """Searches a second term that adds significantly to a formula."""
         beside = JointSearch(self._extend_state(first.candidate), self.j, self._tick)
         ranked, keep = self.rank_columns(seconds, beside.state), THRESHOLDS.max_second_terms

@@ -279,11 +279,8 @@ def _detect_contact(
     )
     values = {"t0": window.start, "t1": window.end} | torque
     units = {"t0": "s", "t1": "s"} | units
-    return [
-        Finding(
-            event.id, None, *ends, values, {}, units, (), text, None, False, doubt, is_event=True
-        )
-    ]
+    numbers = *ends, values, dict[str, float](), units
+    return [Finding(event.id, None, *numbers, (), text, None, False, doubt, is_event=True)]
 
 
 def _list_backlash_joints(search: Search) -> list[int]:
@@ -326,9 +323,8 @@ def _detect_faint_backlash(search: Search, least: float, knocks: bool) -> Findin
         knocks: False where something else may have impacts.
     """
     joints, columns = _list_backlash_joints(search), _collect_backlash_columns(search).items()
-    large = [(j, score) for j, score in columns if score.t_ratio > THRESHOLDS.min_t_ratio]
-    smallest = THRESHOLDS.min_variance_reduction
-    large = [(j, score) for j, score in large if score.variance_reduction > smallest]
+    sure, smallest = THRESHOLDS.min_t_ratio, THRESHOLDS.min_variance_reduction
+    large = [(j, s) for j, s in columns if s.t_ratio > sure and s.variance_reduction > smallest]
     shares = {j: score.total_share for j, score in large if j in joints}
     for j in sorted(shares, key=lambda j: -shares[j]):
         ratio, share = compute_burst_ratio(search.end, j), compute_burst_share(search.end, j)

@@ -102,6 +102,12 @@ class Formula(ShortRepr):
             entries.append((part, {s: s if n == 1 else f"{s}{n}" for s, n in counts.items()}))
         return entries
 
+    @property
+    def named_shapes(self) -> list[tuple[str, Factor, NonlinearParameter]]:
+        """Returns the names of its parameters, each with its factor and what it is there."""
+        every = [(f, n, f.effect.forms[0].nonlinear_parameters) for f, n in self.named_factors]
+        return [(names[s.name], part, s) for part, names, shapes in every for s in shapes]
+
     @cached_property
     def nonlinear_parameters(self) -> dict[str, float]:
         """Returns values by their names in it."""
@@ -165,11 +171,8 @@ class Formula(ShortRepr):
         if self.lag_text:
             table["lag"] = self.lag_text
         if self.nonlinear_parameters:
-            table["shapes"] = {
-                names[shape.name]: part.list_first_values(shape)
-                for part, names in self.named_factors
-                for shape in part.effect.forms[0].nonlinear_parameters
-            }
+            every = self.named_shapes
+            table["shapes"] = {name: part.list_first_values(shape) for name, part, shape in every}
         return table
 
     def build_candidate(self, names: Sequence[str], j: int) -> Candidate:
@@ -182,11 +185,8 @@ class Formula(ShortRepr):
     def find_nonlinear_units(self, linear: bool) -> dict[str, str]:
         """Finds the units of its parameters on a prismatic or revolute joint."""
         stroke_units = dict.fromkeys(("stroke", "stretch"), ("rad", "m")[linear])
-        return {
-            names[shape.name]: stroke_units.get(shape.scale) or shape.get_unit(linear)
-            for part, names in self.named_factors
-            for shape in part.effect.forms[0].nonlinear_parameters
-        }
+        every = self.named_shapes
+        return {n: stroke_units.get(s.scale) or s.get_unit(linear) for n, _, s in every}
 
 
 def count_symbols(text: str) -> int:
@@ -221,8 +221,11 @@ def list_factors(
     for name, table in tomllib.loads(file.read_text(encoding="utf-8")).items():
         others = name.startswith("other_")
         for k in [k for k in joints if k != j] if others else [j]:
-            entry = _assign_joint(table, joints[k]) if others else table
-            cell = TomlCell(file.name, name, entry)
+            title, texts = table["title"], table["columns"]
+            if others:  # it reads another joint
+                title = title.replace("_", joints[k])
+                texts = {key: text.replace("_", joints[k]) for key, text in texts.items()}
+            cell = TomlCell(file.name, name, {**table, "title": title, "columns": texts})
             factor = read_definition(name, cell, {}, False, [*joints.values()])
             (form, *_), scale = factor.forms, scales[k]
             read = form.names
@@ -236,12 +239,6 @@ def list_factors(
             names = [shape.name for shape in shapes]
             named = (dict(zip(names, value, strict=True)) for value in values)
             yield [Factor(factor, scale, value) for value in named]
-
-
-def _assign_joint(table: Mapping[str, Any], name: str) -> dict[str, Any]:
-    """A factor that reads another joint."""
-    columns = {key: text.replace("_", name) for key, text in table["columns"].items()}
-    return {**table, "title": table["title"].replace("_", name), "columns": columns}
 
 
 # Units.
@@ -264,17 +261,8 @@ def derive_parameter_unit(
     linear = spec.joints[j].unit == "m"
     effort, place = ("N", "m") if linear else ("N*m", "rad")
     equation, memory = candidate.form.columns[column].equation, candidate.form.internal_state
-    units = {
-        "q": place,
-        "v": f"{place}/s",
-        "a": f"{place}/s^2",
-        "load": effort,
-        "static": effort,
-        "t": "s",
-        "since": "s",
-        "T": "K",
-        **shapes,
-    }
+    units = {"q": place, "v": f"{place}/s", "a": f"{place}/s^2", "load": effort, "static": effort}
+    units |= {"t": "s", "since": "s", "T": "K", **shapes}
     for joint in spec.joints:
         joint_unit = "m" if joint.unit == "m" else "rad"
         units |= {f"q{joint.name}": joint_unit, f"v{joint.name}": f"{joint_unit}/s"}
@@ -301,7 +289,7 @@ def derive_parameter_unit(
 
 def parse_unit(unit: str) -> dict[str, float]:
     """Parses the exponents of "N*m/s^2"."""
-    exponents, sign = dict[str, float](), 1.0
+    exponents = dict[str, float]()
     for mark, name, power in re.findall(r"([*/]?)([A-Za-z]+)\^?([0-9.]*)", unit.replace(" ", "*")):
         sign = -1.0 if mark == "/" else 1.0
         exponents[name] = exponents.get(name, 0.0) + sign * float(power or 1.0)

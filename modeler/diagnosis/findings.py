@@ -3,12 +3,12 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
 from modeler.core.brief import ShortRepr
-from modeler.diagnosis import result
+from modeler.diagnosis import messages, result
 from modeler.diagnosis.candidates import Candidate, to_dense
 from modeler.diagnosis.events import detect_events
 from modeler.diagnosis.generation import (
@@ -17,14 +17,6 @@ from modeler.diagnosis.generation import (
     generate_candidates,
     is_ruled_out,
     smooth_rows,
-)
-from modeler.diagnosis.messages import (
-    NOT_JUDGED,
-    add_sentences,
-    collect_warnings,
-    compute_duration,
-    describe_evidence,
-    find_single_speed,
 )
 from modeler.diagnosis.plausibility import (
     compute_gain_deviations,
@@ -125,16 +117,16 @@ def _cross_check_step(data_set: CrossCheckData, search: Search, place: int) -> r
         return result.CrossCheck(what, None, True)
     # the state in which the effect was chosen, from other data
     state = linearise_state(build_state(data, picks[:-1], step.before.beta))
-    candidate_scores = _rescan_candidates(state, step, search)
-    gains = [j.variance_reduction for j in candidate_scores if j.key == step.candidate.key]
+    scores = _rescan_candidates(state, step, search)
+    gains = [j.variance_reduction for j in scores if j.key == step.candidate.key]
     gain = gains[0] if gains else 0.0
     expected = _compute_expected_gain(state, step) if data_set.is_required else 0.0
     joint = step.candidate.joint
-    near = [j for j in candidate_scores if joint is None or j.key[1] in (None, joint)]
+    near = [j for j in scores if joint is None or j.key[1] in (None, joint)]
     best = select_best(state, near).best
     if best is None:
         return result.CrossCheck(what, None, True, gain, expected)
-    alike = {best.key, *(j.key for j in find_equivalents(best, candidate_scores))}
+    alike = {best.key, *(j.key for j in find_equivalents(best, scores))}
     if is_refinement(best.candidate, step.candidate):
         alike.add(step.candidate.key)
     return result.CrossCheck(what, best.key, step.candidate.key in alike, gain, expected)
@@ -190,9 +182,8 @@ def find_changed_parameters(
         logs: the same logs.
     """
     there, ratio = fit_on_logs(search.end, other), THRESHOLDS.min_machine_error_ratio
-    alone, training = (
-        compute_errors(compute_holdout_residuals(state, None)) for state in (there, search.end)
-    )
+    left_out = (compute_holdout_residuals(state, None) for state in (there, search.end))
+    alone, training = map(compute_errors, left_out)
     most = {joint: ratio * max(alone[joint], training.get(joint, 0.0)) for joint in alone}
     misses = any(error > most.get(joint, math.inf) for joint, error in compute_errors(left).items())
     if not misses or other.fixed_parameters is not None:
@@ -259,7 +250,12 @@ def evaluate_search(
     looks_at = [(search.end, [state.residual for state in chain])]
     if other is not None:
         looks_at.append((fit_on_logs(search.end, other), [left.residual for left in residuals]))
-    shares = [_build_share_function(state, left[-1], tick) for state, left in looks_at]
+
+    def compute_share(state: State, left: Sequence[np.ndarray], j: int) -> float:
+        tick()  # it takes long
+        return compute_systematic_share(state, j, left[j])
+
+    shares = [cache(partial(compute_share, state, left[-1])) for state, left in looks_at]
     squares = [[[*map(result.compute_mean_square, r)] for r in left] for _, left in looks_at]
     findings = list[result.Finding]()
     for k, step in enumerate(search.steps):
@@ -276,19 +272,6 @@ def evaluate_search(
             findings.append(finding)
         tick()
     return BandSearch(search, other, residuals, shares[0], findings)
-
-
-def _build_share_function(
-    state: State, left: Sequence[np.ndarray], tick: Tick
-) -> Callable[[int], float]:
-    """Systematic share of what is left on a joint of some logs; it takes long."""
-
-    @cache
-    def compute_share(j: int) -> float:
-        tick()
-        return compute_systematic_share(state, j, left[j])
-
-    return compute_share
 
 
 def assemble_diagnosis(
@@ -310,49 +293,45 @@ def assemble_diagnosis(
     """
     first, last = bands[0], bands[-1]
     search, other = first.search, first.other
-    contradicted = any(fault.is_certain for fault in faults)
+    contradicted, left = any(fault.is_certain for fault in faults), last.held_out_residuals[-1]
 
     def score_candidate(candidate: Candidate) -> Score:
         after = compute_holdout_residuals(extend_state(last.search.end, candidate), last.other)
-        return compare_residuals(
-            last.held_out_residuals[-1], after, [candidate.index], last.search.end
-        )
+        return compare_residuals(left, after, [candidate.index], last.search.end)
 
     every: list[result.Finding] = []
     end, residuals = search.end, first.held_out_residuals[-1]
     if not contradicted:
         every = _deduplicate_findings([finding for band in bands for finding in band.findings])
         every, end, residuals = _evaluate_in_table_band(every, bands)
-        every = detect_events(
-            last.search, window, compute_errors(last.held_out_residuals[-1]), score_candidate, every
-        )
+        every = detect_events(last.search, window, compute_errors(left), score_candidate, every)
     joints = _summarise_joints(search, end, (first.held_out_residuals[0], residuals), first.share)
     every = [_add_event_caveat(finding, joints) for finding in every]
     if changed_parameters:
-        every = [replace(finding, warning=NOT_JUDGED) for finding in every]
+        every = [replace(finding, warning=messages.NOT_JUDGED) for finding in every]
     every.sort(key=lambda finding: finding.status == "possible")
     effects, refinements = (tuple(f for f in every if f.is_refinement is r) for r in (False, True))
+    void = contradicted or changed_parameters
+    rivals = tuple((*rival.key, rival.variance_reduction) for rival in search.ranked[:8])
     diagnosis = result.Diagnosis(
         robot=model.spec.robot,
-        verdict="cannot tell"
-        if contradicted or changed_parameters
-        else decide_verdict(effects, joints, search),
+        verdict="cannot tell" if void else decide_verdict(effects, joints, search),
         effects=effects,
         refinements=refinements,
-        alternatives=tuple((*rival.key, rival.variance_reduction) for rival in search.ranked[:8]),
+        alternatives=rivals,
         undetectable=list_undetectable_effects(search),
         joints=joints,
         unmoved_joints=tuple(j.name for j in model.spec.joints if j.name not in joints),
         held_out_logs=other.observation.logs if other else (),
         sentences=(),
         fit_band=model.processing.parallel_cutoff or 0.0,
-        data_warnings=collect_warnings(model, search, other, faults, window),
+        data_warnings=messages.collect_warnings(model, search, other, faults, window),
         has_contradictions=contradicted,
         machine_changed=tuple(changed_parameters),
         window=window,
         search=search,
     )
-    return add_sentences(diagnosis)
+    return messages.add_sentences(diagnosis)
 
 
 def _deduplicate_findings(findings: Sequence[result.Finding]) -> list[result.Finding]:
@@ -373,7 +352,7 @@ def _evaluate_in_table_band(
 
     And the state with all that is named, and what it leaves of unseen motion.
     """
-    first, updated_findings = bands[0], list(every)
+    first, updated = bands[0], list(every)
     state, residuals = first.search.end, first.held_out_residuals[-1]
     for i, finding in enumerate(every):
         if finding.warning or finding.pick is None or finding in first.findings:
@@ -382,28 +361,27 @@ def _evaluate_in_table_band(
         (step,) = (step for step in wider.steps if step.candidate is pick)
         later = extend_state(state, pick)
         left = compute_holdout_residuals(later, first.other)
-        score = compare_residuals(
-            residuals, left, find_affected_joints(step.score, state, later), later
-        )
+        touched = find_affected_joints(step.score, state, later)
+        score = compare_residuals(residuals, left, touched, later)
         ends, why = (score.whole.before, score.whole.after), ""
         if score.is_better:
             state, residuals = later, left
         else:
             why = f"the error falls only up to {get_cutoff(wider.start.data):.2g} Hz"
-        text = describe_evidence(step, *ends)
-        updated_findings[i] = replace(
-            finding, error_before=ends[0], error_after=ends[1], warning=why, evidence=text
-        )
-    return updated_findings, state, residuals
+        text = messages.describe_evidence(step, *ends)
+        better = replace(finding, error_before=ends[0], error_after=ends[1])
+        updated[i] = replace(better, warning=why, evidence=text)
+    return updated, state, residuals
 
 
 def _add_event_caveat(
     finding: result.Finding, joints: Mapping[str, result.JointState]
 ) -> result.Finding:
     """An event, where something acts all the time: what stood out of it may be none."""
-    if not finding.is_event or finding.caveat or not any(j.is_unexplained for j in joints.values()):
-        return finding
-    return replace(finding, caveat="something unexplained acts all the time")
+    unexplained = any(j.is_unexplained for j in joints.values())
+    if finding.is_event and not finding.caveat and unexplained:
+        return replace(finding, caveat="something unexplained acts all the time")
+    return finding
 
 
 def _build_finding(
@@ -432,27 +410,15 @@ def _build_finding(
     ]  # no data distinguish these
     same = [key for key in same if not is_ruled_out(*key, search.without)]
     against, errors = find_caveat(end, pick, estimate.parameters), (change.before, change.after)
-    doubt = result.explain_weak_evidence(
-        pick, errors, against, estimate.sigmas, closed, checks, rivals, refines, after
-    )
-    return result.Finding(
-        pick.effect.id,
-        pick.joint,
-        *errors,
-        estimate.parameters,
-        estimate.sigmas,
-        estimate.units,
-        equivalents=tuple(dict.fromkeys([*(rival.key for rival in rivals), *same])),
-        evidence=describe_evidence(step, *errors),
-        explained_fraction=closed,
-        is_refinement=refines,
-        caveat=against,
-        intervals=estimate.intervals,
-        cross_checks=checks,
-        warning=doubt,
-        is_first=first,
-        pick=result.FittedCandidate(pick, values, end, visible),
-    )
+    seen = closed, checks, rivals, refines, after
+    doubt = result.explain_weak_evidence(pick, errors, against, estimate.sigmas, *seen)
+    equivalents = tuple(dict.fromkeys([*(rival.key for rival in rivals), *same]))
+    numbers = *errors, estimate.parameters, estimate.sigmas, estimate.units
+    evidence = messages.describe_evidence(step, *errors)
+    said = equivalents, evidence, closed, refines, against, estimate.intervals, checks
+    fitted = result.FittedCandidate(pick, values, end, visible)
+    whole = *pick.key, *numbers, *said
+    return result.Finding(*whole, fitted, warning=doubt, is_first=first)
 
 
 def _is_refinement(search: Search, k: int) -> bool:
@@ -484,25 +450,18 @@ def _summarise_joints(
     states, ends = {}, [compute_errors(residuals[k]) for k in (0, -1)]
     shown = [j for j, y in enumerate(search.start.rows.y) if y.size]
     # what all joints share is made by the first
-    shares = dict(
-        zip(shown, [*map(systematic, shown[:1]), *map_parts(systematic, shown[1:])], strict=True)
-    )
+    values = [*map(systematic, shown[:1]), *map_parts(systematic, shown[1:])]
+    shares = dict(zip(shown, values, strict=True))
     for j, joint in enumerate(search.spec.joints):
         if j not in shares:
             continue
         size = result.compute_mean_square(search.start.rows.y[j])
         before, after = (result.compute_mean_square(s.residual[j]) for s in (search.start, end))
         share = after / size if size > 0.0 else math.nan
-        states[joint.name] = result.JointState(
-            error_before=ends[0].get(joint.name, math.nan),
-            error_after=ends[1].get(joint.name, math.nan),
-            unit=joint.effort_unit,
-            rms_before=math.sqrt(before),
-            rms_after=math.sqrt(after),
-            explained_share=1.0 - share,
-            systematic_share=share * shares[j],
-            noise_share=share * (1.0 - shares[j]),
-        )
+        first, last = (errors.get(joint.name, math.nan) for errors in ends)
+        rms, apart = map(math.sqrt, (before, after)), (shares[j], 1.0 - shares[j])
+        seen = *rms, 1.0 - share, *(share * part for part in apart)
+        states[joint.name] = result.JointState(first, last, joint.effort_unit, *seen)
     return states
 
 
@@ -518,9 +477,8 @@ def decide_verdict(
     """
     if effects:
         return "missing" if effects[0].is_confirmed else "closest description"
-    if compute_duration(search.start) < THRESHOLDS.min_duration or not any(
-        y.size > 100 for y in search.start.y
-    ):
+    few = not any(y.size > 100 for y in search.start.y)
+    if few or messages.compute_duration(search.start) < THRESHOLDS.min_duration:
         return "cannot tell"
     if any(state.error_after > THRESHOLDS.max_predictive_error for state in joints.values()):
         return "cannot tell"
@@ -532,24 +490,17 @@ def decide_verdict(
 def list_undetectable_effects(search: Search) -> tuple[result.Key, ...]:
     """Lists effects that these data cannot show."""
     has = {(p.effect, p.joint) for p in search.spec.standard}
-    candidate_scores = [j for j in search.ranked if j.key not in has]
-    shown_keys = {j.key for j in candidate_scores}
-    hidden: list[result.Key] = [
-        (effect.id, joint.name)
-        for joint in search.spec.joints
-        if joint.actuated
-        for effect in search.catalogue
-        if effect.acts_on_whole_axis and (effect.id, joint.name) not in shown_keys
-    ]
+    scores, least = [j for j in search.ranked if j.key not in has], THRESHOLDS.min_visible_share
+    shown_keys = {j.key for j in scores}
+    names = [joint.name for joint in search.spec.joints if joint.actuated]
+    axes = [effect.id for effect in search.catalogue if effect.acts_on_whole_axis]
+    hidden: list[result.Key] = [(x, n) for n in names for x in axes if (x, n) not in shown_keys]
     if search.start.data.fixed_parameters is None:
         hidden += [(effect.id, None) for effect in search.catalogue if effect.is_on_last_link]
     hidden += _list_unmoved(search.start)
     shown = [key for key in hidden if not is_ruled_out(*key, search.without)]
     named_keys = {pick.key for step in search.steps for pick in (step.score, *step.equivalents)}
-    every = [
-        *(j.key for j in candidate_scores if j.visible_share < 2.0 * THRESHOLDS.min_visible_share),
-        *shown,
-    ]
+    every = [*(j.key for j in scores if j.visible_share < 2.0 * least), *shown]
     undetectable = [key for key in dict.fromkeys(every) if key not in named_keys]
     assert all(find_effect(name, search.catalogue) is not None for name, _ in undetectable)
     return tuple(undetectable)
@@ -561,15 +512,10 @@ def _list_unmoved(state: State) -> list[result.Key]:
     At one speed, functions of the speed are one column: only the moments of reversal differ.
     """
     joint_actions = (EffectTarget.JOINT, EffectTarget.MOTOR, EffectTarget.POSITION)
-    steady = [find_single_speed(state, j) is not None for j in range(state.rows.joint_count)]
+    joints = range(state.rows.joint_count)
+    steady = [messages.find_single_speed(state, j) is not None for j in joints]
     if not any(steady) and all(y.size for y in state.rows.y):
         return []
-    return [
-        candidate.key
-        for candidate in generate_candidates(state)
-        if candidate.effect.acts in joint_actions
-        and (
-            not state.rows.y[candidate.index].size
-            or (steady[candidate.index] and candidate.form.names == {"v"})
-        )
-    ]
+    every = [c for c in generate_candidates(state) if c.effect.acts in joint_actions]
+    slow = {id(c) for c in every if steady[c.index] and c.form.names == {"v"}}
+    return [c.key for c in every if id(c) in slow or not state.rows.y[c.index].size]

@@ -24,11 +24,7 @@ from modeler.diagnosis.signals import Signals, simulate_resonance
 from modeler.diagnosis.state import State, collect_pick_columns, make_column_key
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import EffectTarget, Requirement
-from modeler.numerics.noise import (
-    compute_noise_memory,
-    estimate_burst_share,
-    estimate_recurring_share,
-)
+from modeler.numerics import noise
 from modeler.numerics.spectra import OrderSpectrum, compute_order_spectrum as spectrum_of
 from modeler.numerics.splines import (
     LEAST,
@@ -107,10 +103,8 @@ def _solve_instrumental(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Of the last k of c columns, by joint."""
     c, y, block = X[0].shape[1], state.gram_blocks.y, state.gram_blocks.block
-    length, size = (
-        np.sqrt(sum(np.einsum("ij,ij->j", part, part) for part in part_rows))
-        for part_rows in (X, Z)
-    )
+    squares = ([np.einsum("ij,ij->j", part, part) for part in parts] for parts in (X, Z))
+    length, size = (np.sqrt(sum(parts)) for parts in squares)
     is_used = (length > 0.0) & (size > 0.0)
     if not is_used[-k:].all():
         return np.zeros(k), np.ones(k)
@@ -250,16 +244,16 @@ def compute_systematic_share(state: State, j: int, residual: np.ndarray) -> floa
     log = rows.time[j], residual, rows.run[j]
     cutoff = state.data.observation.report.processing.parallel_cutoff
     periods = state.data.time_blocks.period
-    steps = (periods, [compute_noise_memory(cutoff)] * len(periods))
-    again = [estimate_recurring_share(*log, later) or 0.0 for later in steps]
+    steps = (periods, [noise.compute_noise_memory(cutoff)] * len(periods))
+    again = [noise.estimate_recurring_share(*log, later) or 0.0 for later in steps]
     baseline = fit_residual_baseline(state, j, residual)
-    lumps = estimate_burst_share(residual, state.data.block_numbers[j])
+    lumps = noise.estimate_burst_share(residual, state.data.block_numbers[j])
     return max(baseline.share if baseline.is_significant else 0.0, lumps, *again)
 
 
 def compute_burst_share(state: State, j: int) -> float:
     """Computes the share of the energy of joint j's residual in bursts."""
-    return estimate_burst_share(state.residual[j], state.data.block_numbers[j])
+    return noise.estimate_burst_share(state.residual[j], state.data.block_numbers[j])
 
 
 def fit_residual_baseline(state: State, j: int, residual: np.ndarray) -> NonparametricBaseline:
@@ -279,21 +273,11 @@ def _collect_measurements(state: State, j: int) -> Measurements:
     q, v, a, load, torque = np.split(every[:, : 5 * J], 5, axis=1)
     direction = [np.sign(s.v[:, j]) for s in rows.signals]
     travels = [share * state.joint_scales[j].range for share in SLIPS]
-    slips = [
-        np.column_stack([compute_bristle_state(s.q[:, j], d) for d in travels])
-        for s in rows.signals
-    ]
-    return Measurements(
-        joint=j,
-        q=q,
-        v=v,
-        a=a,
-        load=load,
-        torque=torque,
-        direction=rows.filter_samples(j, direction),
-        bristle_states=rows.filter_samples(j, slips),
-        extra_sets={"waves": _build_wave_columns(state, j), "ringing": every[:, 5 * J :]},
-    )
+    slips = [[compute_bristle_state(s.q[:, j], d) for d in travels] for s in rows.signals]
+    states = rows.filter_samples(j, [np.column_stack(slip) for slip in slips])
+    extra_sets = {"waves": _build_wave_columns(state, j), "ringing": every[:, 5 * J :]}
+    motion = q, v, a, load, torque, rows.filter_samples(j, direction), states
+    return Measurements(j, *motion, extra_sets)
 
 
 @lru_cache(maxsize=1)  # all joints of some logs are requested one after the other
@@ -345,10 +329,9 @@ def generate_candidates(
         return not is_ruled_out(effect, joint, without)
 
     results = list_candidates(spec, state.joint_scales, temperature, present, known, is_allowed)
-    slowest = find_slowest_ringing(state)
-    results = [
-        c for c in results if not c.effect.is_oscillator or c.nonlinear_parameters["f"] >= slowest
-    ]
+    slowest, lowest = find_slowest_ringing(state), np.inf
+    ringing = {id(c): c.nonlinear_parameters["f"] for c in results if c.effect.is_oscillator}
+    results = [c for c in results if ringing.get(id(c), lowest) >= slowest]
     if waving := {effect.id for effect in known.catalogue if effect.orders}:
         waves = None if keys is None else {joint for effect, joint in keys if effect in waving}
         results += list_ripple_candidates(state, is_allowed, waves)
@@ -372,14 +355,12 @@ def find_slowest_ringing(state: State) -> float:
 
 def list_load_candidates(state: State) -> list[Candidate]:
     """Lists bodies on a link, where the links' parameters are fixed."""
-    spec = state.spec
-    links = list_links(spec)
-    carrier = spec.closure.carrier if spec.closure is not None else ""
-    last = carrier or links[-1]
+    closure, links = state.spec.closure, list_links(state.spec)
+    last = (closure.carrier if closure is not None else "") or links[-1]
+    bodies = [e for e in state.data.stated_effects.catalogue if e.acts is EffectTarget.LINK]
+    pairs = [
+        (e, k) for e in bodies for k, x in enumerate(links) if e.is_on_last_link is (x == last)
+    ]
     return [
-        Candidate(effect, effect.forms[0], None if effect.is_on_last_link else link, place, {})
-        for effect in state.data.stated_effects.catalogue
-        if effect.acts is EffectTarget.LINK
-        for place, link in enumerate(links)
-        if effect.is_on_last_link is (link == last)
+        Candidate(e, e.forms[0], None if e.is_on_last_link else links[k], k, {}) for e, k in pairs
     ]

@@ -234,7 +234,7 @@ def learn_law(state: State, j: int, request: LawRequest = ANY_LAW) -> LearnedLaw
 
 def _refine_coordinates(
     state: State, j: int, fit: "_SplineFit", splines: "_SplineBasis", rising: int
-) -> tuple["_SplineFit", "_SplineBasis"]:
+) -> "_FittedBasis":
     """At a travel or a time of what has memory that loses less: steps by factors, ever smaller."""
     for name in splines.coordinates.further.get("shapes", {}):
         factor = 2.0
@@ -302,18 +302,15 @@ def _list_bristle_definitions(state: State, j: int) -> list[Mapping[str, Any]]:
     return [{"shapes": {"d": [travel]}} for travel in _list_travels(state, j)]
 
 
-def _select_simplest(
-    fits: Sequence[tuple["_SplineFit", "_SplineBasis"]],
-) -> tuple["_SplineFit", "_SplineBasis"]:
+def _select_simplest(fits: Sequence["_FittedBasis"]) -> "_FittedBasis":
     """Of those that the data do not distinguish from the best, the one with the fewest axes."""
     best = max(fits, key=lambda item: float(item[0].reductions.sum()))
     total = float(best[0].reductions.sum())
     least, most = THRESHOLDS.parsimony_share * total, THRESHOLDS.max_chance_t
     near = [item for item in fits if item is best or item[0].reductions.sum() > least]
-    t_ratios = [compute_t_ratio(item[0].after - best[0].after) for item in near]
-    pairs = zip(near, t_ratios, strict=True)
-    near = [item for item, t_ratio in pairs if item is best or t_ratio <= most]
-    return min(near, key=lambda item: (len(item[1].cell_counts), -float(item[0].reductions.sum())))
+    apart = [(item, compute_t_ratio(item[0].after - best[0].after)) for item in near]
+    near = [item for item, t_ratio in apart if item is best or t_ratio <= most]
+    return min(near, key=lambda x: (len(x[1].coordinates.arguments), -float(x[0].reductions.sum())))
 
 
 @dataclass(frozen=True, eq=False)
@@ -333,11 +330,6 @@ class _SplineBasis(ShortRepr):
     free: csr_array
     rows: np.ndarray
     rough: np.ndarray
-
-    @property
-    def cell_counts(self) -> tuple[int, ...]:
-        """Returns the cells along each axis."""
-        return self.coordinates.cell_counts
 
 
 def _build_splines(state: State, j: int, coordinates: LawCoordinates) -> _SplineBasis | None:
@@ -384,6 +376,10 @@ class _SplineFit(ShortRepr):
         return compute_t_ratio(np.sqrt(self.before) - np.sqrt(self.after))
 
 
+_Solution = tuple[np.ndarray, np.ndarray]
+_FittedBasis = tuple[_SplineFit, _SplineBasis]
+
+
 class _SplineProblem:
     """Normal equations of the splines beside the model, by fold."""
 
@@ -411,15 +407,10 @@ class _SplineProblem:
         inverse = np.linalg.inv(G + 1e-10 * np.eye(len(G)))
         return inverse, inverse @ (base.u.sum(axis=0) + base.prior[:, -1])
 
-    def solve(
-        self, f: int | None, smooth: float, rising: int = 0
-    ) -> tuple[np.ndarray, np.ndarray] | None:
+    def solve(self, f: int | None, smooth: float, rising: int = 0) -> _Solution | None:
         """Solves for coefficients and parameters (r,) by all folds but f; None: by all."""
-        weight = 0.0 if f is None else 1.0
-        BB, XB, By = (
-            x.sum(axis=0) - weight * (x[f] if f is not None else 0.0)
-            for x in (self.BB, self.XB, self.By)
-        )
+        sums = self.BB, self.XB, self.By
+        BB, XB, By = (x.sum(axis=0) - (x[f] if f is not None else 0.0) for x in sums)
         crossed = self.state.gram_blocks.fold_fits
         inverse, beta = self.full_fit if f is None else (crossed.inverse[f], crossed.beta[f])
         moved = inverse @ XB
@@ -434,7 +425,7 @@ class _SplineProblem:
 
     def _solve_monotone(self, factor: np.ndarray, side: np.ndarray, rising: int) -> np.ndarray:
         """The same with coefficients that never fall, or rise, along the first axis."""
-        first, *others = (count - 1 for count in self.splines.cell_counts)
+        first, *others = (count - 1 for count in self.splines.coordinates.cell_counts)
         steps = np.tril(np.ones((first, first)))
         steps[:, 1:] *= rising
         turn = np.kron(steps, np.eye(others[0] if others else 1))
@@ -456,8 +447,7 @@ class _SplineProblem:
     def _cross_validate(self, smooth: float, rising: int) -> tuple[np.ndarray, np.ndarray]:
         """(blocks,) squared residuals of all joints, without and with, of folds not fitted."""
         base = self.state.gram_blocks
-        after = np.zeros(base.block_count)
-        before = np.zeros(base.block_count)
+        before, after = np.zeros((2, base.block_count))
         fits = [self.solve(f, smooth, rising) for f in range(len(self.parts))]
         data = zip(base.whitened_columns, base.y, base.block, base.out_of_fold, strict=True)
         for k, (X, y, block, left) in enumerate(data):
@@ -482,11 +472,11 @@ def _build_law(state: State, j: int, splines: _SplineBasis, fit: _SplineFit) -> 
     values = splines.free @ fit.c / size
     low, high = zip(*splines.ends, strict=True)
     rounded = tuple(float(f"{v:.{THRESHOLDS.law_digits}g}") for v in values)
-    law = Law(low, high, splines.cell_counts, rounded)
+    law = Law(low, high, splines.coordinates.cell_counts, rounded)
     before = float(np.sum(state.gram_blocks.out_of_fold[j] ** 2))
     torque_square = float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2))
     fall = float(fit.reductions.sum())
     reduction = min(1.0, fall / max(before, 1e-300))
     share = float(np.sqrt(max(0.0, fall) / (torque_square + 1e-300)))
-    numbers = fit.reductions, fit.t_ratio, reduction, share
-    return LearnedLaw(splines.coordinates, law, size, torque, *numbers)
+    numbers = size, torque, fit.reductions, fit.t_ratio, reduction, share
+    return LearnedLaw(splines.coordinates, law, *numbers)

@@ -85,17 +85,13 @@ def find_single_speed(state: State, j: int) -> float | None:
     return float(high) if high < THRESHOLDS.max_single_speed_ratio * low else None
 
 
-def _compute_rms(values: np.ndarray) -> float:
-    return float(np.sqrt(np.mean(values**2)))
-
-
 def _check_inertia_torque(state: State, joints: Mapping[int, JointSpec]) -> list[str]:
     """Joints whose torque shows no inertia."""
     lines = []
     for j, joint in joints.items():
         moved = [s.load[:, j] - s.static[:, j] for s in state.rows.signals]
-        least = THRESHOLDS.min_inertia_share * _compute_rms(state.rows.y[j])
-        if _compute_rms(state.rows.filter_samples(j, moved)) < least:
+        square = np.mean(state.rows.filter_samples(j, moved) ** 2)
+        if square < THRESHOLDS.min_inertia_share**2 * np.mean(state.rows.y[j] ** 2):
             v = state.rows.filter_samples(j, [s.v[:, j] for s in state.rows.signals])
             top = float(np.max(np.abs(v), initial=0.0))
             lines.append(
@@ -198,8 +194,8 @@ def _is_explained(search: Search, j: int) -> bool:
         return False
     if any(map(is_gain, search.end.picks)):
         return True
-    before, after = (float(np.mean(s.residual[j] ** 2)) for s in (search.start, search.end))
-    return after < THRESHOLDS.max_explained_residual_share * before
+    before, after = (np.mean(s.residual[j] ** 2) for s in (search.start, search.end))
+    return bool(after < THRESHOLDS.max_explained_residual_share * before)
 
 
 def _describe_delay_shift(model: IdentifiedModel, data: SearchData) -> list[str]:
@@ -330,14 +326,13 @@ def describe_evidence(step: SearchStep, before: float, after: float) -> str:
         before: the error that is printed for it.
         after: that with it.
     """
-    candidate_score = step.score
     change = " -> ".join(format_error_pair(before, after))
     text = f"{step.candidate.effect.title}: error {change} on motion that was held out"
     rivals = [r for r in step.alternatives if r.is_possible and r.is_confirmed]
     rivals = [r for r in rivals if r.key != step.candidate.key]
-    if rivals and rivals[0].total_share > 0.0 and candidate_score.total_share > 0.0:
+    if rivals and rivals[0].total_share > 0.0 and step.score.total_share > 0.0:
         other = rivals[0]
-        share = other.total_share / candidate_score.total_share
+        share = other.total_share / step.score.total_share
         name = f"{other.candidate.effect.title} ({format_location(other.candidate.joint)})"
         part = f"explains {format_percent(share)} of what it does within these logs"
         text += f". Runner-up: {name}, which {part}"
@@ -521,10 +516,8 @@ def format_lines(diagnosis: Diagnosis) -> list[str]:
     pairs = diagnosis.errors.items()
     entry = ", ".join(f"joint {name} {format_percent(error)}" for name, error in pairs)
     lines += ["", f"error of the model on these logs, up to {diagnosis.fit_band:.3g} Hz: {entry}"]
-    lines.append(
-        f"{'joint':<6}{'before':>9}{'with effects':>14}  ({source} error, up to "
-        f"{diagnosis.band:.3g} Hz)"
-    )
+    band = f"({source} error, up to {diagnosis.band:.3g} Hz)"
+    lines.append(f"{'joint':<6}{'before':>9}{'with effects':>14}  {band}")
     for name, joint in diagnosis.joints.items():
         before, after = format_error_pair(joint.error_before, joint.error_after)
         lines.append(f"{name:<6}{before:>9}{after:>14}")

@@ -57,10 +57,10 @@ def select_likeliest(state: State, candidates: Sequence[Candidate]) -> Candidate
     Where a wrong gain bends the model, the weights of the state say more of the bend than of the
     joints. None where no gain can be settled.
     """
-    joints = [(c, _list_gain_joints((*state.picks, c))) for c in candidates]
-    each = ((c, _solve_best(_build_problem(state, gains))) for c, gains in joints)
-    scores = [(candidate, best.score) for candidate, best in each if best is not None]
-    return min(scores, key=lambda pair: pair[1])[0] if scores else None
+    gains = [_list_gain_joints((*state.picks, c)) for c in candidates]
+    solutions = [_solve_best(_build_problem(state, joints)) for joints in gains]
+    scores = [(s.score, k) for k, s in enumerate(solutions) if s is not None]
+    return candidates[min(scores)[1]] if scores else None
 
 
 def _solve_best(problem: "_GainProblem") -> "_GainSolution | None":
@@ -238,28 +238,24 @@ class _GainProblem:
         P = self.grams
         matrix = np.einsum("jkl,jl->kl", P[:, :-1, :-1], self._build_multipliers(g))
         right = P[:, :-1, -1].sum(axis=0) - matrix @ self.fixed
-        free_block = np.ix_(self.free, self.free)
-        scale = self.column_lengths
-        scaled = matrix[free_block] / np.outer(scale, scale)
-        scaled_values = _solve_ridge(scaled, right[self.free] / scale)
-        values = self.fixed.copy()
-        values[self.free] = scaled_values / scale
+        values, scale = self.fixed.copy(), self.column_lengths
+        scaled = matrix[np.ix_(self.free, self.free)] / np.outer(scale, scale)
+        values[self.free] = _solve_ridge(scaled, right[self.free] / scale) / scale
         return values
 
     def _build_equations(self, g: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Of the changes of all values (times their scale) and gains, to first order."""
         P, free, n = self.grams, self.free, len(self.free)
-        scaled = self._build_multipliers(g)
+        scaled, lengths = self._build_multipliers(g), self.column_lengths
         matrix, right = np.zeros((n + len(self.gains),) * 2), np.zeros(n + len(self.gains))
         whole = np.einsum("jkl,jl->kl", P[:, :-1, :-1], scaled)
-        lengths = self.column_lengths
         matrix[:n, :n] = whole[np.ix_(free, free)] / np.outer(lengths, lengths)
-        right[:n] = (P[:, :-1, -1].sum(axis=0) - whole @ values)[free] / self.column_lengths
+        right[:n] = (P[:, :-1, -1].sum(axis=0) - whole @ values)[free] / lengths
         base = np.where(np.arange(len(values)) < self.size, values, 0.0)
         for i, j in enumerate(self.gains, start=n):
             along = P[j, :-1, :-1] @ base
-            matrix[:n, i] = along[free] / self.column_lengths
-            matrix[i, :n] = (along * scaled[j])[free] / self.column_lengths
+            matrix[:n, i] = along[free] / lengths
+            matrix[i, :n] = (along * scaled[j])[free] / lengths
             matrix[i, i] = base @ along
             right[i] = base @ P[j, :-1, -1] - along @ (scaled[j] * values)
         return matrix, right
@@ -285,11 +281,10 @@ def _build_weighted_rows(state: State) -> list[np.ndarray]:
     """(rows_j, z + 1) by joint: base columns, those of picks that are no gains, and torque."""
     rows = state.rows
     extra = [e for e, pick in zip(state.extra, state.picks, strict=True) if not is_gain(pick)]
-    weighted_rows = []
-    for j, (base, y) in enumerate(zip(rows.W, rows.y, strict=True)):
-        parts = [to_dense(e, j, len(y)) for e in extra]
-        weighted_rows.append(np.hstack([base, *parts, y[:, None]]) / state.sigma[j])
-    return weighted_rows
+    return [
+        np.hstack([base, *(to_dense(e, j, len(y)) for e in extra), y[:, None]]) / state.sigma[j]
+        for j, (base, y) in enumerate(zip(rows.W, rows.y, strict=True))
+    ]
 
 
 @lru_cache(maxsize=1)
@@ -319,17 +314,10 @@ def _build_problem(state: State, gains: Sequence[int]) -> _GainProblem:
         if is_gain(pick):
             initial_gains[pick.index] -= values[0]
     free = [*(int(i) for i in state.data.free_columns if i not in robot_gains), *range(size, every)]
-    return _GainProblem(
-        rows=np.array([len(torque) for torque in state.rows.y]),
-        grams=grams,
-        free=np.array(free, dtype=int),
-        fixed=fixed,
-        gains=sorted({*gains, *robot_gains.values()}),
-        size=size,
-        initial_gains=initial_gains,
-        robot_gains=robot_gains,
-        sigma=state.sigma,
-    )
+    rows, which = np.array([len(y) for y in state.rows.y]), np.array(free, dtype=int)
+    gains = sorted({*gains, *robot_gains.values()})
+    known = gains, size, initial_gains, robot_gains, state.sigma
+    return _GainProblem(rows, grams, which, fixed, *known)
 
 
 # Friction brakes: does that of a model with an effect, on the motion seen and where it has faded?
@@ -378,8 +366,8 @@ def has_friction(state: State, j: int) -> bool:
 def _list_friction_picks(state: State, j: int) -> list[int]:
     """Places of the picks that are friction of that joint without memory."""
     local = [k for k, pick in enumerate(state.picks) if pick.is_local and pick.index == j]
-    friction = [k for k in local if state.picks[k].effect.family == "friction"]
-    return [k for k in friction if state.picks[k].form.internal_state is None]
+    friction = [(k, state.picks[k]) for k in local if state.picks[k].effect.family == "friction"]
+    return [k for k, pick in friction if pick.form.internal_state is None]
 
 
 def compute_largest_friction(state: State, j: int) -> float:
@@ -517,9 +505,8 @@ def _check_tilt(state: State, pick: Candidate, parameters: Mapping[str, float]) 
     change, (column,) = float(np.linalg.norm(list(parameters.values()))), pick.form.columns
     if change <= column.largest:
         return ""
-    return (
-        f"gravity would change by {change:.3g} {column.unit_revolute}, and a tilted base turns it"
-    )
+    size = f"{change:.3g} {column.unit_revolute}"
+    return f"gravity would change by {size}, and a tilted base turns it"
 
 
 EITHER = "describes it as well"

@@ -42,6 +42,9 @@ from modeler.numerics.least_squares import compute_joint_whitening
 # The fit of an effect with given shapes, beside all else that a model has.
 
 
+_Shapes = Sequence[NonlinearParameter]
+
+
 @dataclass(frozen=True, eq=False)
 class ProfilePoint:
     """One set of shapes, and the fit with it.
@@ -102,19 +105,18 @@ class ProfileProblem:
     def fit_candidate(self, candidate: Candidate) -> ProfilePoint | None:
         """Fits these parameters; None where the columns are not identifiable beside all else."""
         columns = enumerate(self.rows.build_columns(candidate))
-        columns_by_joint = {j: np.asarray(c) / self.sigma[j] for j, c in columns if c is not None}
-        if not columns_by_joint or not all(np.isfinite(c).all() for c in columns_by_joint.values()):
+        made = {j: np.asarray(c) / self.sigma[j] for j, c in columns if c is not None}
+        if not made or not all(np.isfinite(c).all() for c in made.values()):
             return None
         (y, u, left), base = self.weighted_target, self.weighted_base[0]
-        joint_columns = columns_by_joint.values()
-        T = sum(base[j].T @ c for j, c in columns_by_joint.items())
-        M = sum(c.T @ c for c in joint_columns) - T.T @ T
-        h = sum(c.T @ y[j] for j, c in columns_by_joint.items()) - T.T @ u
-        length = np.sqrt(sum(np.sum(c**2, axis=0) for c in joint_columns))
+        T = sum(base[j].T @ c for j, c in made.items())
+        M = sum(c.T @ c for c in made.values()) - T.T @ T
+        h = sum(c.T @ y[j] for j, c in made.items()) - T.T @ u
+        length = np.sqrt(sum(np.sum(c**2, axis=0) for c in made.values()))
         if not (length > 0.0).all():
             return None
-        inverse = np.linalg.pinv(M / np.outer(length, length), rcond=1e-9, hermitian=True)
-        inverse = inverse / np.outer(length, length)
+        scale = np.outer(length, length)
+        inverse = np.linalg.pinv(M / scale, rcond=1e-9, hermitian=True) / scale
         values = inverse @ h
         others = self.weighted_base[1] @ (u - T @ values)
         deviations = np.sqrt(np.maximum(np.diag(inverse), 0.0))
@@ -130,9 +132,9 @@ class ProfileProblem:
     def compute_residual_columns(self, candidate: Candidate) -> np.ndarray:
         """Computes what all else leaves of the columns over sigma, (rows of all joints, k)."""
         columns = self.rows.build_columns(candidate)
-        joint_columns = [to_dense(columns, j, len(t)) / self.sigma[j] for j, t in enumerate(self.y)]
-        T = sum(q.T @ c for q, c in zip(self.weighted_base[0], joint_columns, strict=True))
-        pairs = zip(self.weighted_base[0], joint_columns, strict=True)
+        made = [to_dense(columns, j, len(t)) / self.sigma[j] for j, t in enumerate(self.y)]
+        pairs = list(zip(self.weighted_base[0], made, strict=True))
+        T = sum(q.T @ c for q, c in pairs)
         return np.concatenate([c - q @ T for q, c in pairs])
 
 
@@ -254,7 +256,7 @@ def _is_possible(candidate: Candidate, point: ProfilePoint) -> bool:
 
 
 def _scan_nonlinear(
-    problem: ProfileProblem, start: Candidate, smooth: Sequence[NonlinearParameter], least: float
+    problem: ProfileProblem, start: Candidate, smooth: _Shapes, least: float
 ) -> list[ProfilePoint]:
     """Points with weights, the smooth shapes over all that makes sense."""
     if not smooth:
@@ -276,10 +278,8 @@ def _build_line(scale: JointScale, start: Candidate, shape: NonlinearParameter) 
         count = THRESHOLDS.neighbouring_orders
         near = coded_value + np.pi / scale.range * np.linspace(-count, count, 4 * count + 1)
         return [float(m) for m in near if m > 0.0]
-    low, high, *inner = (
-        encode_parameter(shape, scale.scale_value(shape, entry))
-        for entry in (*shape.limits, *shape.grid)
-    )
+    entries = [scale.scale_value(shape, entry) for entry in (*shape.limits, *shape.grid)]
+    low, high, *inner = (encode_parameter(shape, entry) for entry in entries)
     return sorted({low, high, *(x for x in (*inner, coded_value) if low < x < high)})
 
 
@@ -309,10 +309,7 @@ def _refine_line(
 
 
 def _scan_grid(
-    problem: ProfileProblem,
-    start: Candidate,
-    smooth: Sequence[NonlinearParameter],
-    lines: Sequence[Sequence[float]],
+    problem: ProfileProblem, start: Candidate, smooth: _Shapes, lines: Sequence[Sequence[float]]
 ) -> list[ProfilePoint]:
     """Points on a grid about the reported shapes, along the axes of the likelihood there."""
     middle = start.encode_parameters(smooth)
@@ -330,7 +327,7 @@ def _scan_grid(
 
 
 def _compute_slopes(
-    problem: ProfileProblem, candidate: Candidate, smooth: Sequence[NonlinearParameter]
+    problem: ProfileProblem, candidate: Candidate, smooth: _Shapes
 ) -> tuple[np.ndarray, np.ndarray]:
     """Own columns, and slopes of the effect by its coded shapes, off all else; rows of all joints.
 
@@ -348,10 +345,7 @@ def _compute_slopes(
 
 
 def _compute_factors(
-    problem: ProfileProblem,
-    candidate: Candidate,
-    smooth: Sequence[NonlinearParameter],
-    first: ProfilePoint,
+    problem: ProfileProblem, candidate: Candidate, smooth: _Shapes, first: ProfilePoint
 ) -> np.ndarray:
     """(k + s,) on the deviations of parameters and smooth shapes, 1 and more.
 

@@ -1,7 +1,7 @@
 """Proposals of laws: the search joint by joint, and the nearest effect that has a name."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,8 +15,8 @@ from modeler.diagnosis.expressions import Formula, count_symbols, derive_paramet
 from modeler.diagnosis.generation import fit_residual_baseline
 from modeler.diagnosis.learn import choose_free_name, learn_law, make_effect_id
 from modeler.diagnosis.profile import estimate_effect
-from modeler.diagnosis.result import EquationProposal, Finding, FittedCandidate, JointDiscovery
-from modeler.diagnosis.search import Search, SearchStep, extend_state
+from modeler.diagnosis.result import EquationProposal, Finding, FittedCandidate, JointDiscovery, Key
+from modeler.diagnosis.search import Search, SearchStep, Tick, extend_state
 from modeler.diagnosis.state import (
     SearchData,
     State,
@@ -30,40 +30,31 @@ from modeler.effects import EffectTarget, read_definition
 
 
 def discover_equations(
-    effect_search: Search,
-    stated: Sequence[tuple[str, str | None]],
-    other: SearchData | None,
-    tick: Callable[[], None] = lambda: None,
+    search: Search, stated: Sequence[Key], other: SearchData | None, tick: Tick = lambda: None
 ) -> tuple[JointDiscovery, ...]:
     """Proposes equations, by joint, for what the named effects leave.
 
     On a joint where these are no more than a description, formulas are tried in their place too.
 
     Args:
-        effect_search: what a diagnosis named.
+        search: what a diagnosis named.
         stated: effects and joints that stay, whatever an equation says.
         other: held-out logs.
         tick: called whenever something is done.
     """
     every = []
-    for j, joint in enumerate(effect_search.spec.joints):
-        if joint.actuated and len(effect_search.end.y[j]):
-            every.append(_search_joint(effect_search, j, stated, other, tick))
+    for j, joint in enumerate(search.spec.joints):
+        if joint.actuated and len(search.end.y[j]):
+            every.append(_search_joint(search, j, stated, other, tick))
     return tuple(every)
 
 
 def _search_joint(
-    effect_search: Search,
-    j: int,
-    stated: Sequence[tuple[str, str | None]],
-    other: SearchData | None,
-    tick: Callable[[], None],
+    search: Search, j: int, stated: Sequence[Key], other: SearchData | None, tick: Tick
 ) -> JointDiscovery:
-    end, name = effect_search.end, effect_search.end.joint_names[j]
-    states, picks = (
-        [end],
-        [p for p in end.picks if p.index != j or not p.is_local or p.key in stated],
-    )
+    end, name = search.end, search.end.joint_names[j]
+    states = [end]
+    picks = [p for p in end.picks if p.index != j or not p.is_local or p.key in stated]
     if len(picks) < len(end.picks):
         states.append(build_state(end.data, picks, end.beta))
     explanations = [_explain_residual(state, j) for state in states]
@@ -76,9 +67,8 @@ def _search_joint(
         return JointDiscovery(name, 0.0, "", (), why)
     share, law = max(explanations)
     accepted = _select_formulas(searches, other)
-    proposals = [
-        _build_proposal(effect_search, item, share, k, other) for k, item in enumerate(accepted)
-    ]
+    every = enumerate(accepted)
+    proposals = [_build_proposal(search, item, share, k, other) for k, item in every]
     if not proposals:
         left = f"{format_percent(share)} of what is left"
         why = f"no small expression says what a learned law does ({left})"
@@ -153,19 +143,11 @@ def _compute_total_cost(search: JointSearch, item: ScoredFormula) -> float:
 
 
 def _build_proposal(
-    effect_search: Search,
-    accepted: _AcceptedFormula,
-    share: float,
-    rank: int,
-    other: SearchData | None,
+    search: Search, accepted: _AcceptedFormula, share: float, rank: int, other: SearchData | None
 ) -> EquationProposal:
     """A proposal with its values, as text, and the effect that it is near to."""
-    state, later, item, formula = (
-        accepted.state,
-        accepted.later,
-        accepted.item,
-        accepted.item.formula,
-    )
+    state, later, item = accepted.state, accepted.later, accepted.item
+    formula = item.formula
     j, joint, k = item.candidate.index, item.candidate.joint or "", len(state.picks)
     known = state.data.stated_effects.catalogue
     name = make_effect_id("found", f"{joint}{'abc'[rank]}", {e.id for e in known})
@@ -178,32 +160,20 @@ def _build_proposal(
     definition = {"title": formula.title, **formula.build_definition(labels), "unit": unit}
     cell = TomlCell("discover", value=definition)
     effect = read_definition(name, cell, {}, joints=state.joint_names)
-    candidate, values = (
-        replace(item.candidate, effect=effect, form=effect.forms[0]),
-        later.values[k],
-    )
+    candidate = replace(item.candidate, effect=effect, form=effect.forms[0])
+    values = later.values[k]
     rms = float(np.sqrt(np.mean((later.residual[j] / state.sigma[j]) ** 2)))
     estimate = estimate_effect(later, k, candidate, values, accepted.score.deviations * rms)
     before, after = (scoring.compute_holdout_residuals(s, other) for s in (state, later))
     change = scoring.compare_residuals(before, after, [j], state).whole
-    finding = Finding(
-        name,
-        joint,
-        change.before,
-        change.after,
-        estimate.parameters,
-        estimate.sigmas,
-        units=dict(zip(estimate.units, units, strict=False)) | shapes,
-        equivalents=(),
-        evidence=formula.title,
-        explained_fraction=None,
-        is_refinement=False,
-        pick=FittedCandidate(candidate, values, later, accepted.score.visible_share),
-    )
+    numbers = change.before, change.after, estimate.parameters, estimate.sigmas
+    all_units = dict(zip(estimate.units, units, strict=False)) | shapes
+    pick = FittedCandidate(candidate, values, later, accepted.score.visible_share)
+    finding = Finding(name, joint, *numbers, all_units, (), formula.title, None, False, pick=pick)
     relative, likeness, differs = _describe_nearest(state, formula, candidate, values)
     rounded = {key: float(f"{x:.6g}") for key, x in candidate.nonlinear_parameters.items()}
     entry = {"joint": joint, **rounded} if rounded else joint
-    steps = [s for s in effect_search.steps if s.candidate in state.picks]
+    steps = [s for s in search.steps if s.candidate in state.picks]
     steps.append(SearchStep(replace(accepted.score, candidate=candidate), (), state))
     return EquationProposal(
         finding=finding,
@@ -212,13 +182,11 @@ def _build_proposal(
         effects_line=f"{name} = {format_toml([entry])}",
         explained_share=min(1.0, accepted.score.variance_reduction / share) if share else math.nan,
         symbols=formula.symbol_count,
-        replaced_effects=tuple(
-            p.effect.id for p in effect_search.end.picks if p not in state.picks
-        ),
+        replaced_effects=tuple(p.effect.id for p in search.end.picks if p not in state.picks),
         nearest_effect=relative,
         similarity=likeness,
         difference=differs,
-        final_search=replace(effect_search, steps=tuple(steps), end=later),
+        final_search=replace(search, steps=tuple(steps), end=later),
     )
 
 
@@ -250,14 +218,10 @@ def _list_catalogue_columns(state: State, j: int) -> list[tuple[Candidate, np.nd
     """Effects of the catalogue on a joint over their grids, with their columns."""
     name, scale = state.joint_names[j], state.joint_scales[j]
     lacking = set() if name in state.reference.temperature else {"T"}
-    every = [
-        candidate
-        for effect in state.data.stated_effects.catalogue
-        if effect.acts is EffectTarget.JOINT
-        for form in effect.forms
-        if not lacking & form.names and not form.other_joint_names
-        for candidate in expand_grid(effect, form, name, j, scale)
-    ]
+    local = [e for e in state.data.stated_effects.catalogue if e.acts is EffectTarget.JOINT]
+    forms = [(e, form) for e in local for form in e.forms if not form.other_joint_names]
+    forms = [(e, form) for e, form in forms if not lacking & form.names]
+    every = [c for pair in forms for c in expand_grid(*pair, name, j, scale)]
     pairs = zip(every, build_all_columns(state.rows, every), strict=True)
     return [(c, to_dense(made, j, len(state.y[j]))) for c, made in pairs if is_visible(made)]
 

@@ -5,10 +5,8 @@ The rows are there as small matrices by block of time.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
-from typing import ClassVar
-from weakref import WeakSet
 
 import numpy as np
 
@@ -80,27 +78,21 @@ class GramBlocks(ShortRepr):
         return tuple(y - np.einsum("ij,ij->i", columns, beta) for y, columns, beta in rows)
 
 
-class WhitenedColumns:
+@dataclass(frozen=True, eq=False)
+class WhitenedColumns(ShortRepr):
     """The columns of a base: W (rows_j, c) by joint, turn (c, r), sigma (J,).
 
     Many bases are there at a time: only the one that was asked last keeps its columns.
     """
 
-    _last: ClassVar["WeakSet[WhitenedColumns]"] = WeakSet()
+    W: Sequence[np.ndarray]
+    turn: np.ndarray
+    sigma: np.ndarray
 
-    def __init__(self, W: Sequence[np.ndarray], turn: np.ndarray, sigma: np.ndarray) -> None:
-        self._of, self._made = (W, turn, sigma), tuple[np.ndarray, ...]()
-
+    @lru_cache(maxsize=1)  # noqa: B019  # of the last base: they fill memory
     def compute_columns(self) -> tuple[np.ndarray, ...]:
         """Computes the columns, (rows_j, r) by joint."""
-        if not self._made:
-            for other in list(self._last):
-                other._made = ()
-            self._last.clear()
-            self._last.add(self)
-            W, turn, sigma = self._of
-            self._made = tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True))
-        return self._made
+        return tuple(w @ (self.turn / s) for w, s in zip(self.W, self.sigma, strict=True))
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,9 +217,8 @@ def build_batch(base: GramBlocks, every: Sequence[Columns]) -> CandidateBatch:
     first = np.cumsum(sizes) - sizes
     owner = np.repeat(np.arange(len(sizes)), sizes)
     K, r = len(owner), base.whitener.shape[1]
-    blocks = [
-        f + np.indices((size, size)).reshape(2, -1) for f, size in zip(first, sizes, strict=True)
-    ]
+    starts = zip(first, sizes, strict=True)
+    blocks = [f + np.indices((size, size)).reshape(2, -1) for f, size in starts]
     pairs = np.concatenate([np.zeros((2, 0), dtype=int), *blocks], axis=1).T
     T, w = np.zeros((base.block_count, r, K)), np.zeros((base.block_count, K))
     D, square = np.zeros((base.block_count, len(pairs))), np.zeros(K)
@@ -287,9 +278,8 @@ def estimate_sigma(rows: ReducedRows, prior: np.ndarray | None = None) -> np.nda
     grams = [w.T @ w for w in rows.W]
     sides = [w.T @ y for w, y in zip(rows.W, rows.y, strict=True)]
     if prior is not None:
-        grams, sides = (
-            [*x, prior[:, :-1].T @ y] for x, y in ((grams, prior[:, :-1]), (sides, prior[:, -1]))
-        )
+        grams.append(prior[:, :-1].T @ prior[:, :-1])
+        sides.append(prior[:, :-1].T @ prior[:, -1])
     weights = np.ones(len(grams))
     for _ in range(50):
         weights[: len(sigma)] = sigma
@@ -352,9 +342,7 @@ def build_time_blocks(observation: Observation) -> TimeBlocks:
     time, run = observation.time, observation.run
     total = float(sum(np.ptp(time[run == log]) for log in np.unique(run)))
     length = max(THRESHOLDS.block_duration, total / THRESHOLDS.max_blocks)
-    number = np.zeros(len(time), dtype=int)
-    folds: list[int] = []
-    periods = []
+    number, folds, periods = np.zeros(len(time), dtype=int), list[int](), []
     for log in range(len(observation.logs)):
         log_rows = np.flatnonzero(run == log)
         if not log_rows.size:
@@ -413,14 +401,12 @@ def rank_candidates(base: GramBlocks, pool: CandidateBatch) -> Ranking:
     every = _fit_all_rows(base, pool)
     cross, square = _compute_products(base, pool, every, slice(None), slice(1))
     score = np.sum((cross - square) ** 2, axis=0)
-    return Ranking(
-        compute_reductions(base, pool),
-        np.array([float(left @ left) for left in base.out_of_fold]),
-        every.fitted[0] / np.sqrt(np.maximum(score, 1e-300)),
-        np.split(every.gamma[0] / pool.scale, pool.first[1:]),
-        np.split(every.deviation[0] / pool.scale, pool.first[1:]),
-        every.visible[0],
-    )
+    before = np.array([float(left @ left) for left in base.out_of_fold])
+    t_ratios = every.fitted[0] / np.sqrt(np.maximum(score, 1e-300))
+    sizes = every.gamma[0] / pool.scale, every.deviation[0] / pool.scale
+    value, deviation = (np.split(x, pool.first[1:]) for x in sizes)
+    numbers = before, t_ratios, value, deviation, every.visible[0]
+    return Ranking(compute_reductions(base, pool), *numbers)
 
 
 def compute_reductions(base: GramBlocks, pool: CandidateBatch) -> np.ndarray:
@@ -513,19 +499,15 @@ def _compute_products(
     beta, gamma = at.beta[fit], at.gamma[fit]
     G, T = base.G[here], pool.T[here]
     i, k = pool.pairs[:, 0], pool.pairs[:, 1]
-    a = _aggregate_columns(pool, at.A[fit] * gamma[:, None])
+    a = _aggregate_ranges(at.A[fit] * gamma[:, None], pool.first)
     products = _aggregate_ranges(pool.D[here] * (gamma[:, i] * gamma[:, k]), pool.first_pairs)
     left = base.u[here] - (G @ beta[:, :, None])[:, :, 0]
     known = (beta[:, None] @ T)[:, 0]
-    cross = _aggregate_columns(pool, (pool.w[here] - known) * gamma) - (left[:, None] @ a)[:, 0]
+    added = _aggregate_ranges((pool.w[here] - known) * gamma, pool.first)
+    cross = added - (left[:, None] @ a)[:, 0]
     column_products = np.einsum("...rk,...rk->...k", a[:, :, pool.owner], T)
     square = products + np.einsum("...rn,...rn->...n", a, G @ a)
-    return cross, square - 2.0 * _aggregate_columns(pool, column_products * gamma)
-
-
-def _aggregate_columns(pool: CandidateBatch, values: np.ndarray) -> np.ndarray:
-    """(..., N) sums over the columns of each candidate of values (..., K)."""
-    return _aggregate_ranges(values, pool.first)
+    return cross, square - 2.0 * _aggregate_ranges(column_products * gamma, pool.first)
 
 
 def _aggregate_ranges(values: np.ndarray, starts: np.ndarray) -> np.ndarray:

@@ -110,8 +110,7 @@ class PushWindow:
         near = other.start < self.end + apart and other.end > self.start - apart
         if other.log != self.log or not near:
             return None
-        start, end = min(self.start, other.start), max(self.end, other.end)
-        return replace(self, start=start, end=end)
+        return replace(self, start=min(self.start, other.start), end=max(self.end, other.end))
 
 
 def compute_explained_fraction(
@@ -180,16 +179,12 @@ def explain_weak_evidence(
     worst = max([after, *left])
     reasons = [objection] if objection and not is_gain(pick) else []
     if worst > THRESHOLDS.max_joint_error:
-        reasons.append(
-            f"with it the error is {format_percent(worst)} still, so the fit does not determine a "
-            "joint"
-        )
+        left_error = f"with it the error is {format_percent(worst)} still"
+        reasons.append(f"{left_error}, so the fit does not determine a joint")
     small = not refines and (closed is None or closed < THRESHOLDS.min_explained_fraction)
     if small and after > (1.0 - THRESHOLDS.min_error_reduction) * before:
-        reasons.append(
-            "the error falls by less than "
-            f"{format_percent(THRESHOLDS.min_error_reduction)} of itself"
-        )
+        least = format_percent(THRESHOLDS.min_error_reduction)
+        reasons.append(f"the error falls by less than {least} of itself")
     if pick.effect.orders and pick.effect.orders[1] < math.inf:
         sigma = max(sigmas.get(s.name, math.inf) for s in pick.form.nonlinear_parameters)
         spread = THRESHOLDS.max_order_deviation * sigma
@@ -390,17 +385,17 @@ class EquationProposal(ShortRepr):
         )
         law = f"{format_percent(self.explained_share)} of what a learned law explains"
         law = "a learned law explains nothing" if math.isnan(self.explained_share) else law
-        lines = [
-            f"joint {f.joint}: {self.equation}: error {change}{instead}; {law}",
+        first = f"joint {f.joint}: {self.equation}: error {change}{instead}; {law}"
+        apart = (
+            f"  discriminating motion: {self.discriminating_command}",
+            f"  {self.discriminating_state}",
+        )
+        return [
+            first,
             f"  {values}",
             f"  {self.difference}",
+            *(apart if self.discriminating_command else ()),
         ]
-        if self.discriminating_command:
-            lines += [
-                f"  discriminating motion: {self.discriminating_command}",
-                f"  {self.discriminating_state}",
-            ]
-        return lines
 
     def format_lines(self) -> list[str]:
         """Formats these, and the text to paste."""
@@ -443,10 +438,8 @@ class JointDiscovery(ShortRepr):
 
     def to_json(self) -> dict[str, Any]:
         """Returns what was looked for on the joint, as plain data."""
-        return {
-            **select_attributes(self, "joint share law reason"),
-            "proposals": [p.to_json() for p in self.proposals],
-        }
+        proposals = {"proposals": [p.to_json() for p in self.proposals]}
+        return select_attributes(self, "joint share law reason") | proposals
 
 
 @dataclass(frozen=True)
@@ -527,10 +520,9 @@ class Diagnosis(Result):
     errors: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
-        headline = textwrap.shorten(
-            self.sentences[0], CORE_THRESHOLDS.max_repr_length, placeholder=" ..."
-        )
-        return f"Diagnosis({self.robot}: {headline})"
+        most = CORE_THRESHOLDS.max_repr_length
+        line = textwrap.shorten(self.sentences[0], most, placeholder=" ...")
+        return f"Diagnosis({self.robot}: {line})"
 
     def __len__(self) -> int:
         return len(self.effects)
@@ -545,15 +537,13 @@ class Diagnosis(Result):
     @property
     def band(self) -> float:
         """Returns the band of the residuals, Hz; values are those of this band too."""
-        observation = self.search.start.data.observation
-        return observation.report.processing.parallel_cutoff
+        return self.search.start.data.observation.report.processing.parallel_cutoff
 
     @property
     def addable_findings(self) -> tuple[Finding, ...]:
         """Returns the effects that `modeler add` puts in."""
-        spec = self.search.spec
+        spec, least = self.search.spec, THRESHOLDS.min_addable_share
         has = {(p.effect, p.joint) for p in spec.standard}
-        least = THRESHOLDS.min_addable_share
 
         def can_add(finding: Finding) -> bool:
             if finding.pick is None or finding.pick.visible_share < least:

@@ -15,6 +15,9 @@ from modeler.diagnosis.state import SearchData, State, collect_pick_columns
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import EffectTarget
 
+_Weights = Mapping[str, float] | None
+_Pairs = Sequence[tuple[Candidate, Columns]]
+
 
 @dataclass(frozen=True, eq=False)
 class Residuals:
@@ -121,10 +124,7 @@ class Score:
 
 
 def score_change(
-    before: Residuals,
-    after: Residuals,
-    weights: Mapping[str, float] | None = None,
-    block: float = 0.0,
+    before: Residuals, after: Residuals, weights: _Weights = None, block: float = 0.0
 ) -> Score:
     """Scores a change.
 
@@ -155,9 +155,8 @@ def score_change(
     total = sum(share.values())
     if not total > 0.0:
         return Score(changes, ErrorChange("", math.nan, math.nan, 0.0))
-    first, last = (
-        math.sqrt(sum(share[name] * of[name] ** 2 for name in shares) / total) for of in (old, new)
-    )
+    squares = (sum(share[name] * of[name] ** 2 for name in shares) for of in (old, new))
+    first, last = (math.sqrt(square / total) for square in squares)
     weighted = [[share[name] * x for x in pair] for name, pair in shares.items()]
     a, b = (np.sqrt(np.sum([pair[k] for pair in weighted], axis=0)) for k in (0, 1))
     return Score(changes, ErrorChange("", first, last, compute_t_ratio(a - b)))
@@ -179,9 +178,8 @@ def compute_rms_error(errors: Iterable[float]) -> float:
 
 def compute_errors(residuals: Residuals) -> dict[str, float]:
     """Computes the relative error of every joint that has a torque."""
-    lefts, torques = (
-        [float(np.linalg.norm(x)) for x in part] for part in (residuals.residual, residuals.torque)
-    )
+    parts = residuals.residual, residuals.torque
+    lefts, torques = ([float(np.linalg.norm(x)) for x in part] for part in parts)
     rows = zip(residuals.names, lefts, torques, strict=True)
     return {name: left / torque for name, left, torque in rows if torque > 0.0}
 
@@ -350,7 +348,7 @@ class CandidateFit(ShortRepr):
     total_reduction: float
 
 
-def fit_candidates(state: State, pairs: Sequence[tuple[Candidate, Columns]]) -> list[CandidateFit]:
+def fit_candidates(state: State, pairs: _Pairs) -> list[CandidateFit]:
     """Fits all candidates, each with its columns."""
     pool = build_batch(state.fold_grams, [columns for _, columns in pairs])
     falls, values = compute_total_reductions(state.fold_grams, pool)
@@ -368,9 +366,7 @@ def select_best_fits(trials: Sequence[CandidateFit]) -> list[CandidateFit]:
     return list(best.values())
 
 
-def score_candidates(
-    state: State, pairs: Sequence[tuple[Candidate, Columns]]
-) -> list[ScoredCandidate]:
+def score_candidates(state: State, pairs: _Pairs) -> list[ScoredCandidate]:
     """Scores candidates, each with its columns; best first."""
     if not pairs:
         return []
@@ -384,18 +380,12 @@ def _build_score(state: State, candidate: Candidate, ranking: Ranking, i: int) -
     concerned = candidate.list_affected_joints(len(ranking.before))
     fall, at_stake = float(drop.sum()), float(ranking.before[concerned].sum())
     torque = sum(float(np.sum((state.rows.y[j] / state.sigma[j]) ** 2)) for j in concerned)
-    return ScoredCandidate(
-        candidate=candidate,
-        variance_reduction=min(1.0, fall / max(at_stake, 1e-300)),
-        total_share=fall / max(float(ranking.before.sum()), 1e-300),
-        reductions=drop,
-        values=ranking.value[i],
-        deviations=ranking.deviation[i],
-        t_ratio=float(ranking.t_ratios[i]),
-        torque_share=float(np.sqrt(max(0.0, fall) / (torque + 1e-300))),
-        visible_share=float(ranking.visible_shares[i]),
-        is_possible=is_possible(candidate, ranking.value[i]),
-    )
+    values, possible = ranking.value[i], is_possible(candidate, ranking.value[i])
+    share = fall / max(float(ranking.before.sum()), 1e-300)
+    gains = min(1.0, fall / max(at_stake, 1e-300)), share, drop, values, ranking.deviation[i]
+    torque_share = float(np.sqrt(max(0.0, fall) / (torque + 1e-300)))
+    sizes = float(ranking.t_ratios[i]), torque_share, float(ranking.visible_shares[i])
+    return ScoredCandidate(candidate, *gains, *sizes, possible)
 
 
 def is_possible(candidate: Candidate, values: np.ndarray) -> bool:
@@ -415,25 +405,25 @@ def is_possible(candidate: Candidate, values: np.ndarray) -> bool:
     )
 
 
-def select_best(state: State, candidate_scores: list[ScoredCandidate]) -> RankedCandidates:
+def select_best(state: State, scores: list[ScoredCandidate]) -> RankedCandidates:
     """Selects the first significant candidate, or an equivalent simpler one.
 
     Timing-like ones are confirmed only when they lead.
     """
-    for place, item in enumerate(candidate_scores):
+    for place, item in enumerate(scores):
         if not item.is_significant:
             continue
-        stem = _find_plain_friction(item, candidate_scores)
+        stem = _find_plain_friction(item, scores)
         if stem is not None:
-            return RankedCandidates(tuple(candidate_scores), stem)
+            return RankedCandidates(tuple(scores), stem)
         if item.candidate.effect.is_timing_sensitive and not is_confirmed(
             state, item.candidate, item.values
         ):
-            candidate_scores[place] = replace(item, is_confirmed=False)
+            scores[place] = replace(item, is_confirmed=False)
             continue
-        simplest = _select_simplest(state, item, candidate_scores)
-        return RankedCandidates(tuple(candidate_scores), simplest)
-    return RankedCandidates(tuple(candidate_scores), None)
+        simplest = _select_simplest(state, item, scores)
+        return RankedCandidates(tuple(scores), simplest)
+    return RankedCandidates(tuple(scores), None)
 
 
 def is_refinement(finer: Candidate, plain: Candidate) -> bool:
@@ -449,19 +439,19 @@ def is_refinement(finer: Candidate, plain: Candidate) -> bool:
 
 
 def _find_plain_friction(
-    best: ScoredCandidate, candidate_scores: Sequence[ScoredCandidate]
+    best: ScoredCandidate, scores: Sequence[ScoredCandidate]
 ) -> ScoredCandidate | None:
     """Dry or viscous friction of a joint that has none, before friction that refines it."""
     if best.candidate.effect.family != "friction":
         return None
     least = THRESHOLDS.plain_friction_share * best.total_share
-    plain = (j for j in candidate_scores if j.candidate.effect.id in PLAIN and j.is_significant)
+    plain = (j for j in scores if j.candidate.effect.id in PLAIN and j.is_significant)
     plain = (j for j in plain if is_refinement(best.candidate, j.candidate))
     return next((j for j in plain if j.total_share > least), None)
 
 
 def _select_simplest(
-    state: State, best: ScoredCandidate, candidate_scores: Sequence[ScoredCandidate]
+    state: State, best: ScoredCandidate, scores: Sequence[ScoredCandidate]
 ) -> ScoredCandidate:
     """Of those tied with the best and nearly as good, that with the fewest free numbers.
 
@@ -471,7 +461,11 @@ def _select_simplest(
     """
     timing = best.candidate.effect.is_timing_sensitive
     least = THRESHOLDS.parsimony_share * best.total_reduction
-    near = [j for j in find_equivalents(best, candidate_scores) if j.total_reduction > least]
+
+    def is_timed(j: ScoredCandidate) -> bool:
+        return j.candidate.effect.is_timing_sensitive
+
+    near = [j for j in find_equivalents(best, scores) if j.total_reduction > least]
     near = [
         j
         for j in near
@@ -482,14 +476,14 @@ def _select_simplest(
         numbers = count_free_numbers(j.candidate)
         return j.refines_model_term, j.is_unlikely, numbers, -j.total_reduction
 
+    def confirms(j: ScoredCandidate) -> bool:
+        return is_confirmed(state, j.candidate, j.values)
+
     order = sorted([best, *near], key=compute_sort_key)
-    return next(
-        j
-        for j in order
-        if j is best
-        or not j.candidate.effect.is_timing_sensitive
-        or is_confirmed(state, j.candidate, j.values)
+    likely = (
+        j for j in order if j is best or not j.candidate.effect.is_timing_sensitive or confirms(j)
     )
+    return next(likely)
 
 
 def count_free_numbers(candidate: Candidate) -> float:
@@ -524,15 +518,15 @@ def find_equivalents(
     best: ScoredCandidate, others: Sequence[ScoredCandidate]
 ) -> list[ScoredCandidate]:
     """Finds candidates that explain as much as the best, by paired differences over blocks."""
-    equivalents = []
-    for other in others:
-        large = other.variance_reduction >= THRESHOLDS.min_variance_reduction
-        if other is best or not other.is_possible or not large:
-            continue
+
+    def is_equivalent(other: ScoredCandidate) -> bool:
         same = other.candidate.effect.id in best.candidate.effect.equivalent_effects
-        if same or compute_t_ratio(best.reductions - other.reductions) <= THRESHOLDS.max_chance_t:
-            equivalents.append(other)
-    return equivalents
+        most, apart = THRESHOLDS.max_chance_t, best.reductions - other.reductions
+        return same or compute_t_ratio(apart) <= most
+
+    least = THRESHOLDS.min_variance_reduction
+    large = [o for o in others if o.is_possible and o.variance_reduction >= least]
+    return [other for other in large if other is not best and is_equivalent(other)]
 
 
 # Errors of a state on motion it was not fitted to, and whether an effect lowers them.
@@ -589,12 +583,10 @@ def compare_residuals(
     return score_change(before, after, weights, block)
 
 
-def find_affected_joints(
-    candidate_score: ScoredCandidate, before: State, after: State
-) -> list[int]:
+def find_affected_joints(score: ScoredCandidate, before: State, after: State) -> list[int]:
     """Finds the joints that an effect explains: its own, or all where residuals fall most."""
-    if candidate_score.is_local:
-        return [candidate_score.candidate.index]
+    if score.is_local:
+        return [score.candidate.index]
     sizes = zip(before.residual, after.residual, before.sigma, strict=True)
     fall = np.array([float(np.sum((b / s) ** 2) - np.sum((a / s) ** 2)) for b, a, s in sizes])
     if fall.max() <= 0.0:
@@ -612,16 +604,13 @@ def make_veto(other: SearchData | None) -> Callable[[State, State, ScoredCandida
         other: held-out logs.
     """
 
-    def is_vetoed(before: State, after: State, candidate_score: ScoredCandidate) -> bool:
-        touched = find_affected_joints(candidate_score, before, after)
+    def is_vetoed(before: State, after: State, item: ScoredCandidate) -> bool:
+        touched = find_affected_joints(item, before, after)
         old, new = (compute_holdout_residuals(state, other) for state in (before, after))
-        score = compare_residuals(old, new, touched, before)
-        expected = candidate_score.variance_reduction
-        if not candidate_score.is_local:  # what is gone of the squared residuals of these joints
-            first, last = (
-                sum(float(np.sum((s.residual[j] / before.sigma[j]) ** 2)) for j in touched)
-                for s in (before, after)
-            )
+        score, expected = compare_residuals(old, new, touched, before), item.variance_reduction
+        if not item.is_local:  # what is gone of the squared residuals of these joints
+            parts = ([s.residual[j] / before.sigma[j] for j in touched] for s in (before, after))
+            first, last = (sum(float(np.sum(x**2)) for x in part) for part in parts)
             expected = 1.0 - last / max(first, 1e-300)
         least = 0.0 if other is None else THRESHOLDS.min_confirmed_share * expected
         return not score.is_better or score.whole.variance_reduction < least

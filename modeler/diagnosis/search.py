@@ -28,11 +28,11 @@ from modeler.diagnosis.state import SearchData, State, batch_candidates, build_s
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, NonlinearParameter, Requirement
 
+_Reduction = Callable[[Candidate], float]
+
 
 def refine_nonlinear_parameters(
-    state: State,
-    candidate: Candidate,
-    compute_reduction: Callable[[Candidate], float] | None = None,
+    state: State, candidate: Candidate, compute_reduction: _Reduction | None = None
 ) -> Candidate:
     """Refines the nonlinear parameters by variable projection.
 
@@ -55,19 +55,18 @@ def refine_nonlinear_parameters(
         pairs = list(zip(smooth, limits, strict=True))
         low, high = (np.array([encode_parameter(s, x[k]) for s, x in pairs]) for k in (0, 1))
         if candidate.effect.is_oscillator:
-            low = np.maximum(low, [_find_lower_bound(state, shape) for shape in smooth])
+            hertz, slowest = [s.scale == "hertz" for s in smooth], find_slowest_ringing(state)
+            least = [encode_parameter(shape, slowest) for shape in smooth]
+            low = np.maximum(low, np.where(hertz, least, -np.inf))
 
     def compute_loss(x: np.ndarray) -> float:
         return -compute_reduction(candidate.set_parameters(smooth, np.clip(x, low, high)))
 
     steps = THRESHOLDS.refinement_steps
     if len(smooth) == 1:
-        solution = minimize_scalar(
-            lambda x: compute_loss(np.array([x])),
-            method="bounded",
-            options={"maxiter": steps},
-            bounds=(max(start[0] - reach[0], low[0]), min(start[0] + reach[0], high[0])),
-        )
+        ends = max(start[0] - reach[0], low[0]), min(start[0] + reach[0], high[0])
+        how = {"method": "bounded", "options": {"maxiter": steps}, "bounds": ends}
+        solution = minimize_scalar(lambda x: compute_loss(np.array([x])), **how)
         x, score = np.array([solution.x]), float(solution.fun)
         whole, share = np.round(x), THRESHOLDS.whole_order_share
         if smooth[0].scale == "waves" and compute_loss(whole) < share * score:
@@ -79,13 +78,6 @@ def refine_nonlinear_parameters(
         x, score = solution.x, float(solution.fun)
     better = score < compute_loss(start)
     return candidate.set_parameters(smooth, np.clip(x, low, high)) if better else candidate
-
-
-def _find_lower_bound(state: State, shape: NonlinearParameter) -> float:
-    """Coded; of a frequency the least at which a joint rings."""
-    if shape.scale != "hertz":
-        return -np.inf
-    return encode_parameter(shape, find_slowest_ringing(state))
 
 
 def _compute_search_range(state: State, candidate: Candidate, shape: NonlinearParameter) -> float:
@@ -112,6 +104,7 @@ def _compute_reduction(state: State, candidate: Candidate) -> float:
 
 # Every hypothesis in a state: at the best of its shapes, the leading ones refined.
 
+Scores = Sequence[ScoredCandidate]
 Tick = Callable[[], None]
 """Called whenever something is done."""
 
@@ -160,10 +153,8 @@ class CandidateScan:
     ) -> RankedCandidates:
         """Ranks all but what was vetoed; the leading ones are refined, with a tick after each."""
         left = self.exclude_vetoed(vetoed)
-        leading, least = (
-            left.best[: THRESHOLDS.max_refined_alternatives],
-            THRESHOLDS.min_refined_gain,
-        )
+        leading = left.best[: THRESHOLDS.max_refined_alternatives]
+        least = THRESHOLDS.min_refined_gain
         close = [j for j in leading if j.is_possible and j.is_near(leading[0])]
         close = [j for j in close if j.variance_reduction > least]
         # Of effects that were not refined, only the best shapes may win still.
@@ -179,13 +170,13 @@ class CandidateScan:
         return select_best(self.state, sorted(best, key=lambda j: -j.total_reduction))
 
     def refine_candidate(
-        self, candidate_score: ScoredCandidate, starts: Sequence[Candidate]
+        self, score: ScoredCandidate, starts: Sequence[Candidate]
     ) -> ScoredCandidate:
         """Refines the best parameters of an effect, or takes the next best."""
-        state, first = self.state, candidate_score.candidate
+        state, first = self.state, score.candidate
         better = [refine_nonlinear_parameters(state, start) for start in starts]
         if better == [first]:
-            return candidate_score
+            return score
         others = [t for t in self.fits if t.candidate.key == first.key]
         pairs = [(candidate, state.rows.build_columns(candidate)) for candidate in better]
         shown = [pair for pair in pairs if is_visible(pair[1])]
@@ -246,7 +237,7 @@ def scan_candidates(state: State, candidates: Sequence[Candidate]) -> CandidateS
 
 def is_vetoed(candidate: Candidate, vetoed: Sequence[ScoredCandidate]) -> bool:
     """Returns whether it was vetoed; of ripples, all orders within a tenth."""
-    others = [candidate_score.candidate for candidate_score in vetoed]
+    others = [score.candidate for score in vetoed]
     if not candidate.effect.is_repeatable:
         return any(c.key == candidate.key for c in others if not c.effect.is_repeatable)
     order = candidate.wave_order
@@ -377,9 +368,7 @@ def _is_covered(state: State, other: ScoredCandidate, best: ScoredCandidate) -> 
     return left < THRESHOLDS.equivalence_share * best.total_reduction
 
 
-def _find_displaced_candidates(
-    refused: Sequence[ScoredCandidate], best: ScoredCandidate
-) -> list[ScoredCandidate]:
+def _find_displaced_candidates(refused: Scores, best: ScoredCandidate) -> list[ScoredCandidate]:
     """What gave way to an effect that explains as much: for the data it is a tie."""
     least, share = THRESHOLDS.parsimony_share, best.total_share
     doubted = [score for score in refused if score.reason not in ("", plausibility.DRIVES)]
@@ -402,43 +391,34 @@ def accept_candidate(
         return best, later
     pick, values = later.picks[-1], later.values[-1]
     why = plausibility.find_caveat(later, pick, name_parameters(later, pick, values))
+    tau = pick.nonlinear_parameters.get("tau", np.inf)
     short = Requirement.LAG in pick.effect.needs and pick.joint is None
-    if short:
-        delay = float(values[0]) * pick.nonlinear_parameters["tau"]
-        short = delay < THRESHOLDS.max_short_delay
+    short = short and float(values[0]) * tau < THRESHOLDS.max_short_delay
     # A lag of no certain kind would take the place of what rounds torques too.
     unsure = short or why.endswith(plausibility.EITHER)
-    if why and (unsure or Requirement.TILT in pick.effect.needs):
-        return replace(best, reason=why), None
-    return replace(best, reason=why) if why else best, later
+    refused = why and (unsure or Requirement.TILT in pick.effect.needs)
+    return replace(best, reason=why) if why else best, None if refused else later
 
 
 def _choose_alternative(
-    survey: CandidateScan,
-    refused: Sequence[ScoredCandidate],
-    candidate_score: ScoredCandidate,
-    later: State | None,
-    tick: Tick,
+    survey: CandidateScan, refused: Scores, score: ScoredCandidate, later: State | None, tick: Tick
 ) -> RankedCandidates | None:
     """What leads without an effect that was refused, or is doubted, if another explains as much.
 
     Or if the doubted one explains little. None where the effect is put in.
     """
-    if later is not None and not candidate_score.reason:
+    if later is not None and not score.reason:
         return None
-    without = survey.judge_candidates([*refused, candidate_score], tick)
-    if later is None or candidate_score.variance_reduction < THRESHOLDS.min_description_gain:
+    without = survey.judge_candidates([*refused, score], tick)
+    if later is None or score.variance_reduction < THRESHOLDS.min_description_gain:
         return without
     best = without.best
-    least = THRESHOLDS.parsimony_share * candidate_score.total_share
+    least = THRESHOLDS.parsimony_share * score.total_share
     return without if best is not None and best.total_share > least else None
 
 
 def _choose_beside_prior(
-    state: State,
-    best: ScoredCandidate,
-    judgement: RankedCandidates,
-    vetoed: Sequence[ScoredCandidate],
+    state: State, best: ScoredCandidate, judgement: RankedCandidates, vetoed: Scores
 ) -> ScoredCandidate:
     """The best effect; of equals on its joint, one that clearly leaves less once it is put in.
 
@@ -452,10 +432,10 @@ def _choose_beside_prior(
     every = {j.key: j for j in (best, first, *near) if not is_vetoed(j.candidate, vetoed)}
     if state.data.prior is None or not best.candidate.is_local:
         return best
-    errors_by_key = {}
-    for key, candidate_score in every.items():
-        if key[1] == best.key[1] and candidate_score.candidate.is_local:
-            later = extend_state(state, candidate_score.candidate)
+    errors = {}
+    for key, item in every.items():
+        if key[1] == best.key[1] and item.candidate.is_local:
+            later = extend_state(state, item.candidate)
             scan = scan_catalogue(state.replace_weights(later), (), *key)
             if not scan.best:  # it shows with the weights of the state alone
                 continue
@@ -463,12 +443,12 @@ def _choose_beside_prior(
             again = scan.refine_candidate(least, scan.list_starts(least.candidate)).candidate
             later = extend_state(state, again)
             error = float(np.linalg.norm(later.gram_blocks.out_of_fold[again.index]))
-            errors_by_key[key] = error * float(later.sigma[again.index]), again
-    if not errors_by_key:
+            errors[key] = error * float(later.sigma[again.index]), again
+    if not errors:
         return best
-    likely = first.key if first.key in errors_by_key else best.key
+    likely = first.key if first.key in errors else best.key
     ratio = THRESHOLDS.min_clear_ratio
-    ends = [(e * (1.0 if key == likely else ratio), c) for key, (e, c) in errors_by_key.items()]
+    ends = [(e * (1.0 if key == likely else ratio), c) for key, (e, c) in errors.items()]
     return _score_candidate(state, min(ends, key=lambda pair: pair[0])[1])
 
 

@@ -8,17 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import expm
 
+from modeler import regression
 from modeler.core.brief import ShortRepr
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import InternalState
 from modeler.numerics.filters import apply_biquad
-from modeler.regression import (
-    Segment,
-    compute_bristle_state,
-    compute_signals,
-    compute_time_since_reversal,
-    find_nearest_closed,
-)
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -60,10 +54,8 @@ class SignalReference(ShortRepr):
         """Returns viscous friction and rotor inertia of each joint, (2, J)."""
         spec = self.compiled.spec
         owner = {p.name: (p.effect, p.joint) for p in spec.standard}
-        values = {
-            owner[base.column_of]: float(value)
-            for base, value in zip(spec.base, self.beta, strict=True)
-        }
+        pairs = zip(spec.base, self.beta, strict=True)
+        values = {owner[base.column_of]: float(value) for base, value in pairs}
         drives = ("viscous", "rotor_inertia")
         return np.array([[values.get((e, j.name), 0.0) for j in spec.joints] for e in drives])
 
@@ -79,7 +71,7 @@ class Signals(ShortRepr):
         reference: the model.
     """
 
-    segment: Segment
+    segment: regression.Segment
     usable: np.ndarray
     q: np.ndarray
     v: np.ndarray
@@ -94,7 +86,7 @@ class Signals(ShortRepr):
     @cached_property
     def model_signals(self) -> np.ndarray | None:
         """Returns what effects of the model read besides the motion, (n, m)."""
-        return compute_signals(self.reference.compiled, self.segment)
+        return regression.compute_signals(self.reference.compiled, self.segment)
 
     def compute_base_regressor(self, window: slice) -> np.ndarray:
         """Computes the base regressor (n, J, c) over a window of the samples."""
@@ -111,21 +103,15 @@ class Signals(ShortRepr):
     @cached_property
     def column_maxima(self) -> np.ndarray:
         """Returns the largest magnitude of each column of a standard parameter, (p,)."""
-        windows = [
-            slice(k, k + THRESHOLDS.sample_window)
-            for k in range(0, len(self.q), THRESHOLDS.sample_window)
-        ]
-        return np.asarray(
-            np.max([np.abs(self.compute_regressor(w)).max(axis=(0, 1)) for w in windows], axis=0)
-        )
+        size = THRESHOLDS.sample_window
+        windows = [slice(k, k + size) for k in range(0, len(self.q), size)]
+        largest = [np.abs(self.compute_regressor(w)).max(axis=(0, 1)) for w in windows]
+        return np.asarray(np.max(largest, axis=0))
 
     @cached_property
     def load(self) -> np.ndarray:
         """Returns the torque (n, J) of the links, inertia and gravity."""
-        ref = self.reference
-        return ref.compiled.inverse_dynamics(
-            self.q, self.v, self.a, ref.link_parameters, self.model_signals
-        )
+        return self._compute_torque(self.reference.link_parameters)
 
     @cached_property
     def static(self) -> np.ndarray:
@@ -135,8 +121,11 @@ class Signals(ShortRepr):
     @cached_property
     def torque(self) -> np.ndarray:
         """Returns the torque (n, J) of the whole model, friction by the measured speeds."""
-        ref = self.reference
-        return ref.compiled.inverse_dynamics(self.q, self.v, self.a, ref.beta, self.model_signals)
+        return self._compute_torque(self.reference.beta)
+
+    def _compute_torque(self, beta: np.ndarray) -> np.ndarray:
+        model = self.reference.compiled
+        return model.inverse_dynamics(self.q, self.v, self.a, beta, self.model_signals)
 
     @cached_property
     def rate(self) -> np.ndarray:
@@ -145,11 +134,10 @@ class Signals(ShortRepr):
 
     def compute_reversal_time(self, j: int, back: float) -> np.ndarray:
         """Computes s (n,) since joint j last turned back, by more than `back`."""
-        if (j, back) not in self._reversal_times:
-            self._reversal_times[j, back] = compute_time_since_reversal(
-                self.q[:, j], self.step, back
-            )[1]
-        return self._reversal_times[j, back]
+        known, key = self._reversal_times, (j, back)
+        if key not in known:
+            _, known[key] = regression.compute_time_since_reversal(self.q[:, j], self.step, back)
+        return known[key]
 
     @cached_property
     def _reversal_times(self) -> dict[tuple[int, float], np.ndarray]:
@@ -167,11 +155,8 @@ class Signals(ShortRepr):
 
     def select_other(self, name: str) -> np.ndarray:
         """Returns `v3`, (n,): position, speed or acceleration of a joint by its name."""
-        motion, joints = (
-            {"q": self.q, "v": self.v, "a": self.a},
-            self.reference.compiled.spec.joints,
-        )
-        return motion[name[0]][:, [joint.name for joint in joints].index(name[1:])]
+        names = [joint.name for joint in self.reference.compiled.spec.joints]
+        return np.asarray(getattr(self, name[0])[:, names.index(name[1:])])
 
     def compute_temperature(self, joint: str) -> np.ndarray | None:
         """Computes K above the reference, (n,); None where training logs have no such column.
@@ -192,7 +177,7 @@ class Signals(ShortRepr):
         if memory.kind == "lag":
             return apply_lag(followed, self.step, shapes[memory.parameter])
         if memory.kind == "slip":
-            return compute_bristle_state(self.q[:, j], shapes[memory.parameter])
+            return regression.compute_bristle_state(self.q[:, j], shapes[memory.parameter])
         frequency, damping = shapes[memory.parameter], shapes[memory.damping]
         return simulate_resonance(self.load[:, j], self.step, frequency, damping)
 
@@ -222,12 +207,11 @@ class Signals(ShortRepr):
             return model.inverse_dynamics(self.q, self.v, ahead[2], beta, signals) - self.load
         behind[kind] = behind[kind] - step
         if kind == 0:  # beside the last posture that closes the loops may be one that does not
-            nearest = find_nearest_closed(model, ahead[0], behind[0])
+            nearest = regression.find_nearest_closed(model, ahead[0], behind[0])
             if nearest is not None:
                 ahead[0], behind[0] = ahead[0][nearest], behind[0][nearest]
-        forth, back = (
-            model.inverse_dynamics(q, v, a, beta, self.model_signals) for q, v, a in (ahead, behind)
-        )
+        ends = ((*x, beta, self.model_signals) for x in (ahead, behind))
+        forth, back = (model.inverse_dynamics(*x) for x in ends)
         return (forth - back) * (0.5 / size)
 
     def compute_displacement_torque(

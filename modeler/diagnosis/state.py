@@ -27,12 +27,7 @@ from modeler.diagnosis.signals import SignalReference
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import EffectTarget
 from modeler.estimation import Prior, build_prior, estimate_correlation
-from modeler.numerics.least_squares import (
-    ReducedRows,
-    Reduction,
-    compute_joint_whitening,
-    reduce_rows,
-)
+from modeler.numerics import least_squares
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -102,9 +97,9 @@ class SearchData(ShortRepr):
         return tuple(y - w @ fixed for y, w in zip(self.rows.y, self.rows.W, strict=True))
 
     @cached_property
-    def reduction(self) -> Reduction:
+    def reduction(self) -> least_squares.Reduction:
         """Returns the reduction of the fitted base columns, and y."""
-        return reduce_rows([w[:, self.free_columns] for w in self.rows.W], self.y)
+        return least_squares.reduce_rows([w[:, self.free_columns] for w in self.rows.W], self.y)
 
     @cached_property
     def prior(self) -> Prior | None:
@@ -185,7 +180,7 @@ class State(ShortRepr):
         return ranking.merge_blocks(self.gram_blocks)
 
     @cached_property
-    def reduced_rows(self) -> ReducedRows:
+    def reduced_rows(self) -> least_squares.ReducedRows:
         """Returns the rows of the model so far, reduced to few."""
         return self.data.reduction.append_columns(self.extra)
 
@@ -261,7 +256,7 @@ class State(ShortRepr):
 
     def _compute_whitener(self, sigma: np.ndarray, prior: np.ndarray) -> np.ndarray:
         blocks = [*self.reduced_rows.W, prior[:, :-1]]
-        return compute_joint_whitening(blocks, np.append(sigma, 1.0))
+        return least_squares.compute_joint_whitening(blocks, np.append(sigma, 1.0))
 
     def _solve_with_prior(self, prior: np.ndarray) -> np.ndarray:
         """The solution beside such rows of a prior."""
@@ -305,11 +300,9 @@ class State(ShortRepr):
     @cached_property
     def joint_scales(self) -> list[JointScale]:
         """Returns the scale of each joint."""
-        motion = (
-            [getattr(s, name)[s.segment.whole] for s in self.rows.signals]
-            for name in ("q", "v", "load")
-        )
-        return compute_scales(self.spec, *motion)
+        whole = [(s, s.segment.whole) for s in self.rows.signals]
+        q, v, load = ([getattr(s, x)[rows] for s, rows in whole] for x in ("q", "v", "load"))
+        return compute_scales(self.spec, q, v, load)
 
     def rank_columns(self, every: Sequence[Columns]) -> ranking.Ranking:
         """Ranks candidates by their columns."""
@@ -339,11 +332,8 @@ def build_columns(rows: Rows, candidate: Candidate) -> Columns:
 
 def build_all_columns(rows: Rows, candidates: Sequence[Candidate]) -> list[Columns]:
     """Builds the columns of many candidates: all parameters of one effect at once."""
-    columns = {
-        id(c): rows.cache[key]
-        for c in candidates
-        if _is_model_independent(c) and (key := make_column_key(rows, c)) in rows.cache
-    }
+    keys = [(id(c), make_column_key(rows, c)) for c in candidates if _is_model_independent(c)]
+    columns = {c: rows.cache[key] for c, key in keys if key in rows.cache}
     for every in _group_candidates([c for c in candidates if id(c) not in columns]):
         made = rows.build_batch(every) if len(every) > 1 else [rows.build_columns(every[0])]
         for candidate, candidate_columns in zip(every, made, strict=True):
@@ -389,11 +379,9 @@ def _group_candidates(candidates: Sequence[Candidate]) -> list[list[Candidate]]:
 def _is_model_independent(candidate: Candidate) -> bool:
     """True if its columns do not depend on the model."""
     memory = candidate.form.internal_state
-    return (
-        candidate.form.names.isdisjoint({"load", "static", "torque", "rate"})
-        and candidate.effect.acts in _FIXED
-        and (memory is None or memory.kind != "resonance")
-    )
+    reads = candidate.form.names & {"load", "static", "torque", "rate"}
+    rings = memory is not None and memory.kind == "resonance"
+    return candidate.effect.acts in _FIXED and not reads and not rings
 
 
 def make_column_key(rows: Rows, candidate: Candidate) -> tuple[Any, ...]:
@@ -456,8 +444,8 @@ def analyse_logs(
         prepared: the logs as `fitted` prepares them; None: they are.
         repair: of the same logs, where it is shared.
     """
-    prepared_band = choose_band(compiled, logs, fitted, band, prepared, repair)
-    return observe_logs(compiled, logs, prepared_band)
+    prepared = choose_band(compiled, logs, fitted, band, prepared, repair)
+    return observe_logs(compiled, logs, prepared)
 
 
 def observe_logs(
@@ -465,7 +453,7 @@ def observe_logs(
 ) -> regression.Observation:
     """Returns the observation of logs whose band is chosen."""
     every = regression.build_observation(compiled, logs, prepared, every_joint=True)
-    return _select_whole_rows(every)
+    return every.select_rows(every.whole) if every.whole.any() else every
 
 
 def choose_band(
@@ -483,14 +471,11 @@ def choose_band(
     if "parallel_cutoff" not in fitted.automatic_cutoffs or not noise.moving:
         return prepared
     user_cutoff = None if "position_cutoff" in fitted.automatic_cutoffs else fitted.position_cutoff
-    asked = replace(
-        fitted, position_cutoff=user_cutoff, parallel_cutoff=None, decimation=None, edge=None
-    )
+    asked = replace(fitted, position_cutoff=user_cutoff, parallel_cutoff=None)
+    asked = replace(asked, decimation=None, edge=None)
     wide, _ = regression.choose_cutoffs(asked, prepared.pieces, noise)
-    motion = wide.parallel_cutoff
-    highest = user_cutoff or regression.THRESHOLDS.max_cutoff_share / max(
-        piece.step for piece in prepared.pieces
-    )
+    motion, slowest = wide.parallel_cutoff, max(piece.step for piece in prepared.pieces)
+    highest = user_cutoff or regression.THRESHOLDS.max_cutoff_share / slowest
     if band is None:
         parallel = max(motion, min(THRESHOLDS.max_band, 0.5 * highest, 0.5 * noise.cutoff))
         position = max(wide.position_cutoff, 2.0 * parallel)
@@ -509,9 +494,7 @@ def choose_band(
 
 
 def observe_in_band(
-    compiled: "CompiledModel",
-    logs: Sequence[regression.Log],
-    processing: regression.ChosenProcessing,
+    compiled: "CompiledModel", logs: Sequence[regression.Log], processing: regression.Processing
 ) -> regression.Observation:
     """Returns other logs in the band of a diagnosis."""
     prepared = regression.prepare_logs(compiled.spec, logs, processing)
@@ -541,9 +524,3 @@ def describe_bands(fitted: regression.Processing, processing: regression.Process
         f"errors and values are those up to {processing.parallel_cutoff:.3g} Hz, beside all "
         f"effects named; `modeler fit` and `add` fit up to {fitted.parallel_cutoff:g} Hz: {why}"
     ]
-
-
-def _select_whole_rows(observation: regression.Observation) -> regression.Observation:
-    """Only whole rows, if there are any."""
-    used = observation.whole
-    return observation.select_rows(used) if used.any() else observation

@@ -7,6 +7,7 @@ import re
 import tomllib
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -38,19 +39,8 @@ _SLIPS = (
     "{d = [0.002, 0.02"
 )
 _LAGS = "lags by a time, which has no positive values here; add it, as in shapes = {tau = [0.1, 1"
-_CATALOGUE_KEYS = (
-    *_KEYS,
-    "scale",
-    "limits",
-    "meaning",
-    "prismatic_unit",
-    "kind",
-    "energy",
-    "largest",
-    "resonance",
-    "forms",
-    "needs",
-)
+_FURTHER = "scale limits meaning prismatic_unit kind energy largest resonance forms needs"
+_CATALOGUE_KEYS = (*_KEYS, *_FURTHER.split())
 """What the catalogue says of an effect, besides fields of `Effect` as they are."""
 
 _PREFIX = re.compile(r"[A-Za-z]([A-Za-z0-9]*[A-Za-z])?")
@@ -59,29 +49,11 @@ _UNIT = re.compile(r"[A-Za-z0-9 .^()-]+([*/][A-Za-z0-9 .^()-]+)*")  # it becomes
 _RESERVED = ("joint", "t0", "T0", "pi", "lambda", *FUNCTIONS, LAW)  # [effects], and the language
 _STATES = 12  # of a joint, in which equations are tried, besides rest
 
-_PLAIN = {
-    "q": "position",
-    "v": "speed",
-    "a": "acceleration",
-    "load": "load",
-    "static": "load",
-    "torque": "torque",
-    "t": "time",
-    "T": "temperature",
-    "since": "time since the last reversal",
-    "z": "travel since the last reversal",
-}
-_AXES: dict[str, SignatureAxis] = {
-    "T": "T",
-    "t": "t",
-    "load": "load",
-    "static": "load",
-    "torque": "torque",
-    "since": "since",
-    "z": "travel",
-    "q": "q",
-    "a": "a",
-}
+_PLAIN = {"q": "position", "v": "speed", "a": "acceleration", "load": "load", "static": "load"}
+_PLAIN |= {"torque": "torque", "t": "time", "T": "temperature"}
+_PLAIN |= {"since": "time since the last reversal", "z": "travel since the last reversal"}
+_AXES: dict[str, SignatureAxis] = {"T": "T", "t": "t", "load": "load", "static": "load"}
+_AXES |= {"torque": "torque", "since": "since", "z": "travel", "q": "q", "a": "a"}
 """Variable -> axis; the first that an equation uses shows it: friction that also depends on
 something else shows itself there, turned with the motion."""
 
@@ -107,28 +79,23 @@ def read_definition(
         RobotError: equations that cannot be read or that have no finite value, unknown variables,
             shapes that no equation uses, other mistakes.
     """
-    table = (
-        place.read_checked_table(_KEYS, EXAMPLE) if is_user_defined else place.read_table(EXAMPLE)
-    )
+    read = partial(place.read_checked_table, _KEYS) if is_user_defined else place.read_table
+    table = read(EXAMPLE)
     acts, variables = _read_target(place.enter("acts", table.get("acts", "joint")), is_user_defined)
     known = _Names(variables, joints if acts is EffectTarget.JOINT else ())
-    forms = tuple(
-        _read_form({**table, **form}, known, taken, place) for form in table.get("forms", [{}])
-    )
+    every = [{**table, **form} for form in table.get("forms", [{}])]
+    forms = tuple(_read_form(form, known, taken, place) for form in every)
     if is_user_defined:
         _check_form(forms[0], acts, place)
     columns, used = forms[0].columns, forms[0].names
-    quantity_names = [_PLAIN[v] for v in _PLAIN if v in used]
+    read_names = [_PLAIN[v] for v in _PLAIN if v in used]
     late = ""
     if (memory := forms[0].internal_state) is not None and memory.lagged_input is not None:
         late = f", z' = ({memory.lagged_input.text} - z)/tau"
-        quantity_names[quantity_names.index(_PLAIN["z"])] = (
-            f"{memory.lagged_input.text} of a while ago"
-        )
-    quantity_names += [
-        f"{_PLAIN[other[0]]} of joint {other[1:]}" for other in sorted(forms[0].other_joint_names)
-    ]
-    quantities = " and ".join(dict.fromkeys(quantity_names)) or "time"
+        read_names[read_names.index(_PLAIN["z"])] = f"{memory.lagged_input.text} of a while ago"
+    others = sorted(forms[0].other_joint_names)
+    read_names += [f"{_PLAIN[other[0]]} of joint {other[1:]}" for other in others]
+    quantities = " and ".join(dict.fromkeys(read_names)) or "time"
     axis = next((axis for variable, axis in _AXES.items() if variable in used), "v")
     axis = "itself" if late else axis
     title = place.enter("title", table.get("title", f"{name} of the robot file"))
@@ -146,14 +113,8 @@ def read_definition(
     }
     for key in table.keys() - set(_CATALOGUE_KEYS):
         stated[key] = tuple(table[key]) if isinstance(table[key], list) else table[key]
-    return Effect(
-        id=name,
-        title=title.read_text('"drag"'),
-        forms=forms,
-        acts=acts,
-        needs=tuple(Requirement[need.upper()] for need in table.get("needs", [])),
-        **stated,
-    )
+    stated["needs"] = tuple(Requirement[need.upper()] for need in table.get("needs", []))
+    return Effect(id=name, title=title.read_text('"drag"'), forms=forms, acts=acts, **stated)
 
 
 def _read_target(place: TomlCell, is_user_defined: bool) -> tuple[EffectTarget, Sequence[str]]:
@@ -328,16 +289,14 @@ def _read_columns(
 
 def _read_law(place: TomlCell) -> Law:
     """The table that `law` of the equations is."""
-    table = place.read_checked_table(
-        ("low", "high", "cells", "values"), _LAW, missing=f"as in {_LAW}"
-    )
-    low, high, cells, values = (
-        tuple(
-            place.enter(key).with_value(entry).read_number("0.1")
-            for entry in _read_list(place, key, cell)
-        )
-        for key, cell in ((key, table[key]) for key in ("low", "high", "cells", "values"))
-    )
+    keys = ("low", "high", "cells", "values")
+    table = place.read_checked_table(keys, _LAW, missing=f"as in {_LAW}")
+
+    def read_numbers(key: str) -> tuple[float, ...]:
+        entries, here = _read_list(place, key, table[key]), place.enter(key)
+        return tuple(here.with_value(entry).read_number("0.1") for entry in entries)
+
+    low, high, cells, values = map(read_numbers, keys)
     if not 1 <= len(low) <= 2 or not len(low) == len(high) == len(cells):
         raise place.make_error(
             f"got {len(low)}, {len(high)} and {len(cells)} entries of low, high and cells; "
@@ -471,11 +430,8 @@ def _read_catalogue() -> tuple[Effect, ...]:
     file = Path(__file__).with_name("catalogue.toml")
     effects: list[Effect] = []
     for name, table in tomllib.loads(file.read_text(encoding="utf-8")).items():
-        effects.append(
-            read_definition(
-                name, TomlCell(file.name, f"[{name}]", table), {}, is_user_defined=False
-            )
-        )
+        cell = TomlCell(file.name, f"[{name}]", table)
+        effects.append(read_definition(name, cell, {}, is_user_defined=False))
     return tuple(effects)
 
 

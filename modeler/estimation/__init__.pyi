@@ -79,10 +79,7 @@ from .side_by_side import (
     MethodResult as MethodResult,
     compare_methods as compare_methods,
 )
+from .single_joint import JointDirections as JointDirections
 from .thresholds import THRESHOLDS as THRESHOLDS
-from .two_step import (
-    JointDirections as JointDirections,
-    TwoStepFit as TwoStepFit,
-    identify_in_two_steps as identify_in_two_steps,
-)
+from .two_step import TwoStepFit as TwoStepFit, identify_in_two_steps as identify_in_two_steps
 from .verdict import find_contradictions as find_contradictions, judge_fit as judge_fit

@@ -222,11 +222,8 @@ class HalvesComparison:
         if self.worst is None:
             return []
         column, joint, signal, apart = self.worst
-        why = (
-            "a model term is missing"
-            if apart > THRESHOLDS.split_sigmas
-            else "coloured noise, or a missing model term"
-        )
+        sure = apart > THRESHOLDS.split_sigmas
+        why = "a model term is missing" if sure else "coloured noise, or a missing model term"
         line = (
             f"joint {joints[joint]}: {names[column]} differs significantly between samples of low "
             f"and of high {signal}: {why}; standard deviations are raised by up to a factor "
@@ -327,10 +324,8 @@ def estimate_reversal_bias(
         return added
     columns = np.array(estimate.rank.kept_columns, dtype=int)
     weighted = _weight_triangles(compressed, estimate)
-    (whole, var), (far, far_var) = (
-        _solve_blocks([*weighted(rows)])
-        for rows in (counted, counted & observation.steady[observation.used])
-    )
+    steady = counted & observation.steady[observation.used]
+    (whole, var), (far, far_var) = (_solve_blocks([*weighted(x)]) for x in (counted, steady))
     if whole is None or far is None:
         return added
     raised = np.maximum(sigma[columns] ** 2 / var, 1.0)

@@ -462,13 +462,11 @@ def _check_weights(observation: Observation, loaded: LoadedEquations, currents: 
         mass, sigma = factor.value * stated, factor.sigma * stated
         more = format_percent(abs(factor.value - 1.0))
         more += " more" if factor.value > 1.0 else " less"
-        cause = (
-            f"all drive gains are {1.0 / factor.value:.3g} times what the robot file says; "
-            "--method tls finds the gains"
-            if currents
-            else f"all torques are logged {factor.value:.3g} times as large as they are, by wrong "
-            "drive gains in the controller"
-        )
+        cause = f"all torques are logged {factor.value:.3g} times as large as they are, by wrong "
+        cause += "drive gains in the controller"
+        if currents:
+            wrong = f"{1.0 / factor.value:.3g} times what the robot file says"
+            cause = f"all drive gains are {wrong}; --method tls finds the gains"
         lines.append(
             f"payload {payload.name}: the logs say that it weighs {mass:.4g} +- {sigma:.1g} kg, "
             f"{more} than the {stated:g} kg given; check the weight, or {cause}"

@@ -21,12 +21,7 @@ from modeler.estimation.least_squares import Estimate, compute_condition_numbers
 from modeler.estimation.parameters import EssentialParameters, select_essential_parameters
 from modeler.estimation.result import EnergyReport, FitResult, ModelFigures
 from modeler.estimation.thresholds import THRESHOLDS
-from modeler.numerics.least_squares import (
-    compress_rows,
-    compute_triangle,
-    find_independent_columns,
-    solve_scaled_least_squares,
-)
+from modeler.numerics import least_squares
 from modeler.regression import Observation, Segment, compute_signals, find_runs
 from modeler.runtime import CompiledModel
 
@@ -183,9 +178,8 @@ def _integrate_rows(
         flat = at.ravel()
         read = None if signals is None else signals[flat]
         total, power, energy = _compute_powers(model, s.q[flat], s.qd[flat], s.qdd[flat], read)
-        integral, whole = (
-            np.einsum("k,rkc->rc", w, values.reshape(*at.shape, -1)) for values in (power, total)
-        )
+        powers = (values.reshape(*at.shape, -1) for values in (power, total))
+        integral, whole = (np.einsum("k,rkc->rc", w, values) for values in powers)
         energy = energy.reshape(*at.shape, -1)
         work = np.sum(s.tau[at] * s.qd[at], axis=2) @ w
         spread = np.einsum("k,rkj->rj", w**2, s.qd[at] ** 2)
@@ -259,7 +253,7 @@ def solve_heteroscedastic(
         stretch: (rows,) number of the segment of each row; within one, rows are neighbours.
         method: "weighted" or "ordinary".
     """
-    rank = find_independent_columns(compute_triangle(W), names)
+    rank = least_squares.find_independent_columns(least_squares.compute_triangle(W), names)
     columns = np.asarray(rank.kept_columns, dtype=int)
     X = W[:, columns]
     used = shares[:, shares.max(axis=0) > 0.0]
@@ -275,19 +269,10 @@ def solve_heteroscedastic(
     covariance = C * np.outer(factors, factors)
     beta, covariance = expand_columns(len(names), columns, values, covariance)
     raw, scaled = compute_condition_numbers(X)
-    return HeteroscedasticEstimate(
-        beta,
-        covariance,
-        np.ones(1),
-        rank,
-        0,
-        is_converged,
-        raw,
-        scaled,
-        max(1, len(y) - len(columns)),
-        row_sigma=deviation,
-        autocorrelation_factor=float(factors.max(initial=1.0)),
-    )
+    factor, degrees = float(factors.max(initial=1.0)), max(1, len(y) - len(columns))
+    numbers = np.ones(1), rank, 0, is_converged, raw, scaled, degrees
+    whole = beta, covariance, *numbers
+    return HeteroscedasticEstimate(*whole, row_sigma=deviation, autocorrelation_factor=factor)
 
 
 def _iterate_deviations(
@@ -350,7 +335,9 @@ class EnergyFit:
                 touched = held[samples][near.clip(0, len(samples) - 1)].any(axis=1)
                 free[np.flatnonzero(windows)[touched]] = False
         W, y = self.rows.W / self.deviation[:, None], self.rows.y / self.deviation
-        return solve_scaled_least_squares(W[free], y[free], THRESHOLDS.min_singular_share)
+        return least_squares.solve_scaled_least_squares(
+            W[free], y[free], THRESHOLDS.min_singular_share
+        )
 
 
 def identify_energy(
@@ -418,14 +405,13 @@ def _select_essential(
 ) -> EssentialParameters:
     """Returns the essential parameters by the F-test of the windows."""
     weight, zeros = 1.0 / estimate.row_sigma, np.zeros(len(rows.y), dtype=int)
-    data = compress_rows(rows.W * weight[:, None], rows.y * weight, zeros, 1, names)
+    data = least_squares.compress_rows(rows.W * weight[:, None], rows.y * weight, zeros, 1, names)
     essential = select_essential_parameters(data, estimate, "ordinary", below)
     at = [names.index(name) for name in essential.names]
     raw, scaled = compute_condition_numbers(rows.W[:, at])
     covariance = essential.reduced.covariance * estimate.autocorrelation_factor**2
-    reduced = dataclasses.replace(
-        essential.reduced, covariance=covariance, condition_number=raw, condition_scaled=scaled
-    )
+    reduced = dataclasses.replace(essential.reduced, covariance=covariance)
+    reduced = dataclasses.replace(reduced, condition_number=raw, condition_scaled=scaled)
     return dataclasses.replace(essential, reduced=reduced)
 
 
@@ -447,15 +433,12 @@ def _build_report(
         # What the energy that integration misses moves at most, in sigmas.
         weighted = part.W[:, columns] / fit.row_sigma[:, None]
         least = THRESHOLDS.min_singular_share
-        moved = solve_scaled_least_squares(weighted, missed / fit.row_sigma, least)
+        moved = least_squares.solve_scaled_least_squares(weighted, missed / fit.row_sigma, least)
         sigma = np.sqrt(np.diag(fit.covariance)[columns])
-        figures.append(
-            dataclasses.replace(
-                _compute_figures(f"energy, {rule}", observation, len(part.y), fit),
-                imbalance=float(np.linalg.norm(missed) / np.linalg.norm(part.y)),
-                bias=float(np.max(np.abs(moved) / sigma, initial=0.0)),
-            )
-        )
+        figure = _compute_figures(f"energy, {rule}", observation, len(part.y), fit)
+        imbalance = float(np.linalg.norm(missed) / np.linalg.norm(part.y))
+        bias = float(np.max(np.abs(moved) / sigma, initial=0.0))
+        figures.append(dataclasses.replace(figure, imbalance=imbalance, bias=bias))
     residual = rows.y - rows.W @ estimate.beta
     error = float(np.linalg.norm(residual) / np.linalg.norm(rows.y))
     count = len(estimate.rank.kept_columns)
@@ -468,17 +451,10 @@ def _compute_figures(
     W, y, beta, covariance = observation.W, observation.y, fit.beta, fit.covariance
     sigma = np.sqrt(np.diag(covariance))
     squares = np.einsum("rc,cd,rd->r", W, covariance, W, optimize=True)
-    joint = observation.row_joint
+    joint, size = observation.row_joint, np.linalg.norm(y)
     is_known = 100.0 * sigma < THRESHOLDS.known_below_percent * np.abs(beta)
-    return ModelFigures(
-        model=name,
-        rows=rows,
-        condition_scaled=fit.condition_scaled,
-        precise_count=int(np.sum((sigma > 0.0) & is_known)),
-        torque_error=float(np.linalg.norm(y - W @ beta) / np.linalg.norm(y)),
-        torque_sigma=float(np.sqrt(squares.sum()) / np.linalg.norm(y)),
-        joint_sigma={
-            observation.joints[k].name: float(np.sqrt(squares[joint == k].mean()))
-            for k in np.unique(joint)
-        },
-    )
+    error, spread = np.linalg.norm(y - W @ beta) / size, np.sqrt(squares.sum()) / size
+    rms = {k: float(np.sqrt(squares[joint == k].mean())) for k in np.unique(joint)}
+    by_joint = {observation.joints[k].name: value for k, value in rms.items()}
+    numbers = int(np.sum((sigma > 0.0) & is_known)), float(error), float(spread)
+    return ModelFigures(name, rows, fit.condition_scaled, *numbers, joint_sigma=by_joint)

@@ -7,23 +7,17 @@ of drives that take gravity out has g = 0, a table with a wrong sign -g, a base 
 direction. Where positions close loops, a factor of the stated gravity is all that is requested.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
+from typing import Any
 
 import numpy as np
 from scipy.sparse import block_diag, csr_array, diags_array
 
+from modeler import regression
 from modeler.estimation.physical_consistency import PhysicalParameters, define_physical_parameters
 from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.filters import restrict_weights
-from modeler.regression import (
-    Observation,
-    Segment,
-    compute_signals,
-    evaluate_columns_at,
-    find_nearest_closed,
-)
 from modeler.runtime import CompiledModel
 
 _CLOCKS = (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # are off by
@@ -46,7 +40,7 @@ class ThinnedRows:
     tau: np.ndarray
     used: np.ndarray
     means: tuple[csr_array, ...]
-    samples: tuple[tuple[Segment, np.ndarray], ...]
+    samples: tuple[tuple[regression.Segment, np.ndarray], ...]
     read: np.ndarray | None
 
     @property
@@ -59,14 +53,11 @@ class ThinnedRows:
         """Returns (m, n, k) rows of what the samples have, (samples, n, k)."""
         return np.stack([mean @ values[:, j] for j, mean in enumerate(self.means)], axis=1)
 
-    def transform_columns(
-        self, compiled: CompiledModel, transform: "MotionTransform"
-    ) -> np.ndarray:
+    def transform_columns(self, compiled: CompiledModel, how: "MotionTransform") -> np.ndarray:
         """Returns (m, n, c) columns of the motion with other positions, or by another clock."""
-        q, qd, qdd = self.motion @ transform.motion
-        speed = transform.speed
-        moved = q + transform.offset, speed * qd, speed**2 * qdd
-        return self._filter_function(compiled, compiled.base_regressor, *moved)
+        q, qd, qdd = self.motion @ how.motion
+        moved = q + how.offset, how.speed * qd, how.speed**2 * qdd
+        return self._filter_function(compiled, compiled.base_regressor, moved)
 
     def shift_columns(
         self, compiled: CompiledModel, shift: np.ndarray, beta: np.ndarray | None = None
@@ -83,21 +74,21 @@ class ThinnedRows:
             a, b = (below, joint), (below + 1, joint)
             motion = [x[a] * (1.0 - above) + x[b] * above for x in (s.q, s.qd, s.qdd)]
             motions.append(np.stack(motion))
-        of: Callable[..., np.ndarray] = compiled.base_regressor
-        if beta is not None:
-            of = partial(_compute_torque, compiled, beta)
-        return self._filter_function(compiled, of, *np.concatenate(motions, axis=1))
+
+        def compute_torque(q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, read: Any) -> np.ndarray:
+            return compiled.inverse_dynamics(q, qd, qdd, beta, read)
+
+        of: Callable[..., np.ndarray] = compiled.base_regressor if beta is None else compute_torque
+        return self._filter_function(compiled, of, np.concatenate(motions, axis=1))
 
     def _filter_function(
-        self,
-        compiled: CompiledModel,
-        of: Callable[..., np.ndarray],
-        q: np.ndarray,
-        qd: np.ndarray,
-        qdd: np.ndarray,
+        self, compiled: CompiledModel, of: Callable[..., np.ndarray], motion: Iterable[np.ndarray]
     ) -> np.ndarray:
         """Returns (m, n, ...) filtered values of a function of a motion of the samples."""
-        nearest = find_nearest_closed(compiled, q)  # a motion that was changed may leave the loops
+        q, qd, qdd = motion
+        nearest = regression.find_nearest_closed(
+            compiled, q
+        )  # a motion that was changed may leave the loops
         if nearest is not None:
             q = np.ascontiguousarray(q[nearest])
         values = of(q, qd, qdd, self.read)
@@ -109,18 +100,7 @@ class ThinnedRows:
         return out
 
 
-def _compute_torque(
-    compiled: CompiledModel,
-    beta: np.ndarray,
-    q: np.ndarray,
-    qd: np.ndarray,
-    qdd: np.ndarray,
-    read: np.ndarray | None,
-) -> np.ndarray:
-    return compiled.inverse_dynamics(q, qd, qdd, beta, read)
-
-
-def thin_rows(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
+def thin_rows(compiled: CompiledModel, observation: regression.Observation) -> ThinnedRows:
     """Returns at most so many of the rows of the observation, evenly; fewer of many joints."""
     cells = THRESHOLDS.max_thinned_cells // len(observation.joints)
     most = max(1, min(THRESHOLDS.max_thinned_rows, cells))
@@ -143,11 +123,11 @@ def thin_rows(compiled: CompiledModel, observation: Observation) -> ThinnedRows:
             total = masked.sum(axis=1)
             joint_means.append(diags_array(1.0 / np.where(total > 0.0, total, 1.0)) @ masked)
         samples.append((part.segment, reached))
-        signals = compute_signals(compiled, part.segment)
+        signals = regression.compute_signals(compiled, part.segment)
         read += [] if signals is None else [signals[reached]]
     place = np.concatenate(chosen)
     return ThinnedRows(
-        W=evaluate_columns_at(observation, place),
+        W=regression.evaluate_columns_at(observation, place),
         tau=observation.torque[place],
         used=observation.used[place],
         means=tuple(block_diag(joint_means, format="csr") for joint_means in means),
@@ -175,7 +155,7 @@ class MotionTransform:
     speed: float = 1.0
 
 
-def propose_clocks(observation: Observation) -> Iterator[MotionTransform]:
+def propose_clocks(observation: regression.Observation) -> Iterator[MotionTransform]:
     """Yields all motion faster or slower than it is logged."""
     same = np.eye(len(observation.joints))
     for speed in _CLOCKS:
@@ -186,7 +166,7 @@ def propose_clocks(observation: Observation) -> Iterator[MotionTransform]:
         yield MotionTransform(line, same, np.zeros(len(same)), np.arange(len(same)), speed)
 
 
-def propose_zero(observation: Observation, j: int, degrees: int) -> MotionTransform:
+def propose_zero(observation: regression.Observation, j: int, degrees: int) -> MotionTransform:
     """Returns positions of a joint that turns, counted from another zero."""
     line = (
         f"joint {observation.joints[j].name}: its zero seems to be off by {degrees} degrees, by "
@@ -197,7 +177,7 @@ def propose_zero(observation: Observation, j: int, degrees: int) -> MotionTransf
 
 
 def propose_transforms(
-    observation: Observation, zeros_only: bool = False
+    observation: regression.Observation, zeros_only: bool = False
 ) -> Iterator[MotionTransform]:
     """Yields positions from another zero; in other units, reversed, exchanged, torques too."""
     for j, joint in enumerate(observation.joints):

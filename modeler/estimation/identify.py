@@ -11,25 +11,8 @@ import numpy as np
 from modeler.core.choices import ABOUT, EstimatorInfo, Method
 from modeler.core.errors import DataError
 from modeler.core.json import select_attributes
-from modeler.estimation import instrumental
+from modeler.estimation import instrumental, least_squares, parameters
 from modeler.estimation.covariance import HalvesComparison, compare_halves, estimate_hac_covariance
-from modeler.estimation.least_squares import (
-    Estimate,
-    Problem,
-    compute_base_residual,
-    compute_least_sigma,
-    estimate_ordinary,
-    estimate_ridge,
-    estimate_robust,
-    select_rows,
-    solve_least_squares,
-)
-from modeler.estimation.parameters import (
-    EssentialParameters,
-    ParameterEstimate,
-    build_reduced_model,
-    select_essential_parameters,
-)
 from modeler.estimation.physical_consistency import estimate_consistent
 from modeler.estimation.prior import Prior, build_prior, describe_unused_prior
 from modeler.estimation.result import FitResult, JointFit
@@ -64,7 +47,7 @@ class Estimator:
     """
 
     about: EstimatorInfo
-    estimate: Callable[[Problem], Estimate]
+    estimate: Callable[[least_squares.Problem], least_squares.Estimate]
     works_on: tuple[str, ...]
 
     @property
@@ -73,11 +56,11 @@ class Estimator:
         return not (self.about.is_consistent or self.about.id == "ridge")
 
 
-_ESTIMATES: dict[Method, Callable[[Problem], Estimate]] = {
-    "weighted": lambda problem: solve_least_squares(problem.data, "weighted"),
-    "ordinary": estimate_ordinary,
-    "robust": estimate_robust,
-    "ridge": estimate_ridge,
+_ESTIMATES: dict[Method, Callable[[least_squares.Problem], least_squares.Estimate]] = {
+    "weighted": lambda problem: least_squares.solve_least_squares(problem.data, "weighted"),
+    "ordinary": least_squares.estimate_ordinary,
+    "robust": least_squares.estimate_robust,
+    "ridge": least_squares.estimate_ridge,
     "iv": instrumental.estimate_iv,
     "iv-direct": instrumental.estimate_iv_direct,
     "didim": instrumental.estimate_didim,
@@ -162,13 +145,10 @@ class Equations:
 
     def append_columns(self, columns: np.ndarray, names: Sequence[str]) -> "Equations":
         """Returns the equations with further columns (rows, k), and the torques as measured."""
-        return dataclasses.replace(
-            self,
-            extra=np.column_stack([self.extra, columns]),
-            y=self.observation.y,
-            names=(*self.names, *names),
-            units=(*self.units, *("1" for _ in names)),
-        )
+        wider = dataclasses.replace(self, extra=np.column_stack([self.extra, columns]))
+        units = (*self.units, *("1" for _ in names))
+        names = (*self.names, *names)
+        return dataclasses.replace(wider, y=self.observation.y, names=names, units=units)
 
     def compress_rows(
         self, counted: np.ndarray, weight: np.ndarray | None = None
@@ -178,7 +158,7 @@ class Equations:
         free = [j for j, joint in enumerate(joints) if not joint.actuated]
         W = self.W if weight is not None else self.stored_matrix
         if W is None:
-            selected = select_rows(self.observation, counted)
+            selected = least_squares.select_rows(self.observation, counted)
             triangles = compute_triangles(self.observation, selected)
             rows, idle = triangles.rows.astype(np.intp), np.isin(np.arange(len(joints)), free)
             return CompressedRegression(self.names, triangles.triangles, rows, idle)
@@ -191,7 +171,7 @@ class Equations:
     def compute_residual(self, beta: np.ndarray, counted: np.ndarray) -> np.ndarray:
         """Returns y - W beta of some rows."""
         if (W := self.stored_matrix) is None:
-            return compute_base_residual(self.observation, beta, counted)
+            return least_squares.compute_base_residual(self.observation, beta, counted)
         return np.asarray(self.y[counted] - W[counted] @ beta)
 
 
@@ -253,7 +233,9 @@ def fit_equations(
             "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
         )
     matrix, joints = equations.stored_matrix, [joint.name for joint in observation.joints]
-    problem = Problem(observation, matrix, equations.y, alive, equations.names, data, model)
+    problem = least_squares.Problem(
+        observation, matrix, equations.y, alive, equations.names, data, model
+    )
     prior, notes = None, list(equations.sentences)
     if model is not None and not noise_only:
         if estimator.takes_prior:
@@ -283,14 +265,14 @@ def fit_equations(
         full = autocorrelation.inflate_covariance(estimate.covariance)
         more = np.maximum(np.diag(covariance) - np.diag(full), 0.0)
         estimate = prior.combine_with_data(estimate, data, full, more, joints)
-    essential = select_essential_parameters(data, estimate, method, below)
+    essential = parameters.select_essential_parameters(data, estimate, method, below)
     sigma = estimate.sigma
     if essential.dropped and below is None and not noise_only:
         some = [equations.names.index(name) for name in essential.names]
         errors, as_good = compute_held_out_errors(equations, alive, sigma, prior, some)
         if not as_good:
             keep_all = THRESHOLDS.keep_all_percent
-            essential = select_essential_parameters(data, estimate, method, keep_all)
+            essential = parameters.select_essential_parameters(data, estimate, method, keep_all)
         essential = dataclasses.replace(essential, held_out=errors)
     at = [equations.names.index(name) for name in essential.names]
     reduced = np.ones(len(at))
@@ -330,8 +312,8 @@ def fit_equations(
 def build_result(
     equations: Equations,
     method: str,
-    estimate: Estimate,
-    essential: EssentialParameters,
+    estimate: least_squares.Estimate,
+    essential: parameters.EssentialParameters,
     data: CompressedRegression,
     sigma_of_rows: np.ndarray | None = None,
     reduced: np.ndarray | None = None,
@@ -354,20 +336,16 @@ def build_result(
     units = dict(zip(equations.names, equations.units, strict=True))
     is_estimated = np.isin(np.arange(len(units)), estimate.rank.kept_columns)
     sigma, share = np.sqrt(np.diag(estimate.covariance)), estimate.prior_share
-    every = tuple(
-        ParameterEstimate(
-            name=name,
-            unit=unit,
-            value=float(estimate.beta[i]),
-            sigma=float(sigma[i]) if is_estimated[i] else None,
-            essential=name in essential.names,
-            status="held"
-            if name in estimate.fixed_names
-            else ("set aside", "estimated")[int(is_estimated[i])],
-            prior=float(share[i]) if share is not None and is_estimated[i] else None,
-        )
-        for i, (name, unit) in enumerate(units.items())
-    )
+
+    def describe(i: int, name: str, unit: str) -> parameters.ParameterEstimate:
+        status = ("set aside", "estimated")[int(is_estimated[i])]
+        status = "held" if name in estimate.fixed_names else status
+        numbers = float(estimate.beta[i]), float(sigma[i]) if is_estimated[i] else None
+        prior = float(share[i]) if share is not None and is_estimated[i] else None
+        known = *numbers, name in essential.names, status, None, prior
+        return parameters.ParameterEstimate(name, unit, *known)
+
+    every = tuple(describe(i, *both) for i, both in enumerate(units.items()))
     status = "ok" if estimate.is_converged else "not settled"
     return FitResult(
         robot=observation.robot,
@@ -386,7 +364,7 @@ def build_result(
         bands=observation.report.bands,
         essential=reduced
         if reduced is None
-        else build_reduced_model(essential, reduced, units, after),
+        else parameters.build_reduced_model(essential, reduced, units, after),
         **further,
     )
 
@@ -423,7 +401,7 @@ def find_disconnected_joints(observation: Observation) -> list[int]:
 def compute_relative_errors(observation: Observation, beta: np.ndarray) -> dict[str, float]:
     """Returns ||y_j - W_j beta|| / ||y_j|| by joint: the one number that is called error."""
     equations = build_base_equations(observation)
-    residual = compute_base_residual(observation, beta)
+    residual = least_squares.compute_base_residual(observation, beta)
     errors = compute_errors(equations, residual, np.ones(len(residual), dtype=bool))
     pairs = zip(observation.joints, errors.tolist(), strict=True)
     return {joint.name: error for joint, error in pairs if np.isfinite(error)}
@@ -439,21 +417,16 @@ def build_joint_fits(
     residual, torque = data.compute_residual_norms(beta), data.compute_torque_norms()
     count = np.maximum(data.rows, 1)
     if sigma is None:
-        sigma = np.maximum(residual / np.sqrt(count), compute_least_sigma(data))
-    return tuple(
-        JointFit(
-            name=joint.name,
-            unit=joint.effort_unit,
-            rows=int(data.rows[j]),
-            relative_error=float(residual[j] / torque[j]) if torque[j] > 0.0 else None,
-            rms=float(residual[j] / np.sqrt(count[j])),
-            sigma=float(sigma[j]),
-        )
-        for j, joint in enumerate(observation.joints)
-    )
+        sigma = np.maximum(residual / np.sqrt(count), least_squares.compute_least_sigma(data))
+    fits = []
+    for j, joint in enumerate(observation.joints):
+        error = float(residual[j] / torque[j]) if torque[j] > 0.0 else None
+        numbers = error, float(residual[j] / np.sqrt(count[j])), float(sigma[j])
+        fits.append(JointFit(joint.name, joint.effort_unit, int(data.rows[j]), *numbers))
+    return tuple(fits)
 
 
-def compare_bands(observation: Observation, estimate: Estimate) -> list[str]:
+def compare_bands(observation: Observation, estimate: least_squares.Estimate) -> list[str]:
     """Returns a sentence where wider filters give other values: noise of the motion biases them."""
     values = np.array(observation.report.bands.widest_values)
     if not values.size:

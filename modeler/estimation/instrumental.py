@@ -21,6 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from modeler import regression
 from modeler.core.errors import DataError
 from modeler.core.table import format_percent
 from modeler.estimation.least_squares import (
@@ -38,14 +39,6 @@ from modeler.numerics.least_squares import (
     compute_column_norms,
     compute_triangle,
     find_independent_columns,
-)
-from modeler.regression import (
-    THRESHOLDS as REGRESSION,
-    Observation,
-    Segment,
-    apply_low_pass,
-    compute_signals,
-    differentiate_positions,
 )
 from modeler.runtime import CompiledModel
 
@@ -100,20 +93,20 @@ class DirectModel:
         lightest: the joint that moves most along its lowest eigenvalue.
     """
 
-    def __init__(self, model: CompiledModel, observation: Observation) -> None:
+    def __init__(self, model: CompiledModel, observation: regression.Observation) -> None:
         self.model, self.observation = model, observation
         self.segments = [part.segment for part in observation.stretches]
         self.commanded = all(segment.commanded is not None for segment in self.segments)
         self.cutoff = observation.report.processing.position_cutoff
         self.references = [self._build_reference(segment) for segment in self.segments]
-        self.signals = [compute_signals(model, segment) for segment in self.segments]
+        self.signals = [regression.compute_signals(model, segment) for segment in self.segments]
         self.raised, self.lightest = 0.0, 0
 
     def evaluate_columns(self, motions: list[Motion]) -> np.ndarray:
         """Returns (rows, c) the columns of W along motions, filtered as those of the log."""
         places = {id(segment): i for i, segment in enumerate(self.segments)}
 
-        def evaluate(segment: Segment, window: slice) -> np.ndarray:
+        def evaluate(segment: regression.Segment, window: slice) -> np.ndarray:
             i = places[id(segment)]
             signals = self.signals[i]
             q, qd, qdd = motions[i][:, window]
@@ -213,13 +206,13 @@ class DirectModel:
         extent = np.ptp(logged, axis=0)
         return np.sqrt(np.mean(away**2, axis=0)) / np.where(extent > 0.0, extent, 1.0)
 
-    def _build_reference(self, segment: Segment) -> Motion:
+    def _build_reference(self, segment: regression.Segment) -> Motion:
         """Returns commanded positions with derivatives, or the motion of the fit smoothed further.
 
         Derivatives that the log brought along are kept: those of its positions are noisier.
         """
         if self.commanded and segment.commanded is not None:
-            return differentiate_positions(segment.commanded, segment.step)
+            return regression.differentiate_positions(segment.commanded, segment.step)
         motion = np.stack([segment.q, segment.qd, segment.qdd])
         return _smooth_motion(segment, motion, THRESHOLDS.reference_cutoff_share * self.cutoff)
 
@@ -278,9 +271,9 @@ class DirectModel:
         return [ways[i] for i in range(len(pieces))]
 
 
-def _smooth_motion(segment: Segment, motion: Motion, cutoff: float) -> Motion:
-    highest = min(cutoff, REGRESSION.max_cutoff_share / segment.step)
-    return np.stack([apply_low_pass(signal, segment.step, highest) for signal in motion])
+def _smooth_motion(segment: regression.Segment, motion: Motion, cutoff: float) -> Motion:
+    highest = min(cutoff, regression.THRESHOLDS.max_cutoff_share / segment.step)
+    return np.stack([regression.apply_low_pass(signal, segment.step, highest) for signal in motion])
 
 
 def scale_inertia(M: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:

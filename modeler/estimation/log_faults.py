@@ -18,6 +18,7 @@ from itertools import combinations
 
 import numpy as np
 
+from modeler.estimation import physical_consistency
 from modeler.estimation.gravity import (
     ABSENT,
     MotionTransform,
@@ -29,11 +30,6 @@ from modeler.estimation.gravity import (
     thin_rows,
 )
 from modeler.estimation.model_file import IdentifiedModel
-from modeler.estimation.physical_consistency import (
-    PhysicalParameters,
-    define_physical_parameters,
-    project_parameters,
-)
 from modeler.estimation.thresholds import THRESHOLDS
 from modeler.regression import DataWarning, Observation
 from modeler.runtime import CompiledModel, map_parts
@@ -89,7 +85,7 @@ class ResidualModel:
         beta: (c,) of a model that predicts; None: each time it is fitted.
     """
 
-    machine: PhysicalParameters
+    machine: physical_consistency.PhysicalParameters
     beta: np.ndarray | None = None
 
     def solve(self, data: NormalEquations) -> tuple[np.ndarray, np.ndarray]:
@@ -116,7 +112,7 @@ class ResidualModel:
         """Returns (c,) the nearest consistent parameters; the fit itself where none are found."""
         values, vectors = np.linalg.eigh(np.tensordot(weights, data.gram, 1))
         root = np.sqrt(np.maximum(values, 0.0))[:, None] * vectors.T
-        nearest = project_parameters(self.machine, beta, root)
+        nearest = physical_consistency.project_parameters(self.machine, beta, root)
         return beta if nearest is None else nearest.beta
 
 
@@ -219,7 +215,7 @@ def _gather_evidence(
     least = THRESHOLDS.min_rows_each * rows.W.shape[2]
     if not joints or rows.used[:, joints].sum() < least:
         joints = []
-    judge = ResidualModel(define_physical_parameters(compiled.spec), beta)
+    judge = ResidualModel(physical_consistency.define_physical_parameters(compiled.spec), beta)
     return Evidence(compiled, observation, judge, rows, tuple(joints))
 
 

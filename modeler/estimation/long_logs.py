@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from modeler import regression
 from modeler.core.choices import Method
 from modeler.core.errors import DataError, LoopError
 from modeler.estimation.identify import (
@@ -28,26 +29,6 @@ from modeler.estimation.identify import (
 from modeler.estimation.result import FitResult
 from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import CompressedRegression, merge_compressed
-from modeler.regression import (
-    FINGER,
-    Chunk,
-    KnownFacts,
-    LogChoices,
-    LogFacts,
-    LogPasses,
-    ModelRegressor,
-    Observation,
-    Processing,
-    Source,
-    Survey,
-    WholeLogNeeded,
-    add_stretch,
-    build_chunk_rows,
-    build_no_row_error,
-    build_streamed_report,
-    choose_from_windows,
-    read_chunks,
-)
 from modeler.runtime import CompiledModel, make_empty_triangles
 
 OF_TRIANGLES = find_methods("triangles")
@@ -56,7 +37,7 @@ OF_TRIANGLES = find_methods("triangles")
 Share = Callable[[float], None]
 """Gets the share of the rows that are done."""
 
-Reducer = Callable[[CompiledModel, Source, LogChoices], Iterable[Any]]
+Reducer = Callable[[CompiledModel, regression.Source, regression.LogChoices], Iterable[Any]]
 """Parts of all chunks of a log in order: `PartialFit`, or what has `facts` and `merged_with`."""
 
 
@@ -70,7 +51,7 @@ class PartialFit:
     """
 
     data: CompressedRegression
-    facts: LogFacts
+    facts: regression.LogFacts
 
     def merged_with(self, later: "PartialFit") -> "PartialFit":
         """Returns that of these rows, and of those that follow them."""
@@ -78,7 +59,9 @@ class PartialFit:
         return PartialFit(merge_compressed(self.data, later.data), facts)
 
 
-def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: LogChoices) -> PartialFit:
+def reduce_chunk(
+    model: CompiledModel, chunk: regression.Chunk, chosen: regression.LogChoices
+) -> PartialFit:
     """Reduces the rows y = W beta of a chunk to triangles. Pure: equal chunks give equal bits.
 
     Args:
@@ -89,11 +72,11 @@ def reduce_chunk(model: CompiledModel, chunk: Chunk, chosen: LogChoices) -> Part
     Raises:
         DataError: a value that cannot be.
     """
-    stretches, facts = build_chunk_rows(model, chunk, chosen)
+    stretches, facts = regression.build_chunk_rows(model, chunk, chosen)
     parts = [part for part in stretches if part.used.any()]
-    regressor, state = ModelRegressor(model, parts), make_empty_triangles(model.pattern)
+    regressor, state = regression.ModelRegressor(model, parts), make_empty_triangles(model.pattern)
     for part in parts:  # W is never there as a whole
-        state = add_stretch(regressor, part, part.filter_torque(), part.used, state)
+        state = regression.add_stretch(regressor, part, part.filter_torque(), part.used, state)
     names, joints = tuple(base.name for base in model.spec.base), model.spec.joints
     free, rows = np.array([not joint.actuated for joint in joints]), state.rows.astype(np.intp)
     return PartialFit(CompressedRegression(names, state.triangles, rows, free), facts)
@@ -109,17 +92,17 @@ class StreamedLogs:
         passes: over the logs.
     """
 
-    observation: Observation
+    observation: regression.Observation
     data: CompressedRegression
-    passes: LogPasses
+    passes: regression.LogPasses
 
 
 def stream_logs(
     model: CompiledModel,
-    sources: Sequence[Source],
-    processing: Processing | None = None,
+    sources: Sequence[regression.Source],
+    processing: regression.Processing | None = None,
     progress: Share = lambda share: None,
-    rows: int = FINGER,
+    rows: int = regression.FINGER,
     reducer: Reducer | None = None,
 ) -> StreamedLogs:
     """Reads every row of long logs once, in chunks, and keeps what a fit needs.
@@ -144,9 +127,9 @@ def stream_logs(
     reducer = reducer or reduce_by_threads
     passes, every = read_all_rows(model, sources, processing, progress, rows, reducer)
     data = reduce(merge_compressed, [part.data for part in every])
-    report = build_streamed_report(model, sources, passes)
+    report = regression.build_streamed_report(model, sources, passes)
     if not data.rows.any():
-        raise build_no_row_error(report)
+        raise regression.build_no_row_error(report)
     observation = dataclasses.replace(passes.survey.observation, report=report)
     return StreamedLogs(observation, data, passes)
 
@@ -181,25 +164,27 @@ def identify_long(
 
 def read_all_rows(
     model: CompiledModel,
-    sources: Sequence[Source],
-    processing: Processing | None,
+    sources: Sequence[regression.Source],
+    processing: regression.Processing | None,
     progress: Share,
     rows: int,
     reducer: Reducer,
-) -> tuple[LogPasses, list[Any]]:
+) -> tuple[regression.LogPasses, list[Any]]:
     """Returns the passes over long logs, and of each log its part; whatever is kept of rows.
 
     Raises:
         DataError: as `stream_logs`.
     """
     if any(signal.is_internal_state for signal in model.spec.signals):
-        raise WholeLogNeeded(
+        raise regression.WholeLogNeeded(
             f"{sources[0].name}: an effect of {model.spec.robot} depends on all motion before, and "
             "long logs are read in chunks; fit a part of it, FILE@START:END"
         )
-    known, total = KnownFacts(), max(1, sum(source.rows for source in sources))
+    known, total = regression.KnownFacts(), max(1, sum(source.rows for source in sources))
     for number in range(1, THRESHOLDS.max_passes + 1):
-        survey = choose_from_windows(model, sources, processing or Processing(), known, rows)
+        survey = regression.choose_from_windows(
+            model, sources, processing or regression.Processing(), known, rows
+        )
         begun = [reducer(model, *each) for each in zip(sources, survey.chosen, strict=True)]
         every: list[Any] = []
         for source, parts in zip(sources, begun, strict=True):
@@ -216,14 +201,16 @@ def read_all_rows(
             break
         known = again
     _check_whole_logs(model, sources, facts)
-    return LogPasses(survey, facts, number), every
+    return regression.LogPasses(survey, facts, number), every
 
 
 def reduce_by_threads(
     model: CompiledModel,
-    source: Source,
-    chosen: LogChoices,
-    reduce_by: Callable[[CompiledModel, Chunk, LogChoices], Any] = reduce_chunk,
+    source: regression.Source,
+    chosen: regression.LogChoices,
+    reduce_by: Callable[
+        [CompiledModel, regression.Chunk, regression.LogChoices], Any
+    ] = reduce_chunk,
 ) -> Iterator[Any]:
     """Yields the parts of all chunks of a log, in their order, by threads of this process.
 
@@ -233,7 +220,7 @@ def reduce_by_threads(
     workers, waiting = cpu_count() or 1, deque[Future[Any]]()
     with ThreadPoolExecutor(workers) as pool:
         try:
-            for chunk in read_chunks(source, chosen.chunk_rows, chosen.margin_rows):
+            for chunk in regression.read_chunks(source, chosen.chunk_rows, chosen.margin_rows):
                 waiting.append(pool.submit(reduce_by, model, chunk, chosen))
                 if len(waiting) > workers:
                     yield waiting.popleft().result()
@@ -245,19 +232,19 @@ def reduce_by_threads(
 
 
 def _prepare_next_pass(
-    facts: Sequence[LogFacts], survey: Survey, known: KnownFacts
-) -> KnownFacts | None:
+    facts: Sequence[regression.LogFacts], survey: regression.Survey, known: regression.KnownFacts
+) -> regression.KnownFacts | None:
     """Returns what another pass is to know; None if this one knew all."""
     low = survey.chosen[0].processing.low_speed
     floors = {name: low * top for log in facts for name, top in log.moving_shafts.items()}
     if not floors and not any(log.is_wrongly_clipped() for log in facts):
         return None
     extremes = {k: log.ranges.torques for k, log in enumerate(facts)}
-    return KnownFacts({**known.floors, **floors}, extremes)
+    return regression.KnownFacts({**known.floors, **floors}, extremes)
 
 
 def _check_whole_logs(
-    model: CompiledModel, sources: Sequence[Source], facts: Sequence[LogFacts]
+    model: CompiledModel, sources: Sequence[regression.Source], facts: Sequence[regression.LogFacts]
 ) -> None:
     """Refuses what only a log as a whole shows.
 
@@ -270,7 +257,7 @@ def _check_whole_logs(
         zeros = log.find_first("zero")
         for kind, first_times in (("another zero", zeros), ("another turn", turned)):
             for j, time in first_times.items():
-                raise WholeLogNeeded(
+                raise regression.WholeLogNeeded(
                     f"{source.name}: q{model.spec.joints[j].name} counts from {kind} from "
                     f"{time:.6g} s on; a log of {log.tally.count('rows')} rows is read in chunks, "
                     "which cannot be joined across that; fit its parts, as in "

@@ -230,18 +230,12 @@ class IdentifiedModel(Result):
 
 def collect_provenance(report: DataReport) -> tuple[LogProvenance, ...]:
     """Returns which logs went into an observation."""
-    return tuple(
-        LogProvenance(
-            log.name,
-            log.rows,
-            log.samples,
-            log.content,
-            *log.span,
-            path=os.fsencode(log.path).decode(errors="replace"),
-            checksum=compute_place_checksum(log.path),
-        )
-        for log in report.logs
-    )
+    logs = []
+    for log in report.logs:
+        place = os.fsencode(log.path).decode(errors="replace"), compute_place_checksum(log.path)
+        known = log.name, log.rows, log.samples, log.content, *log.span, *place
+        logs.append(LogProvenance(*known))
+    return tuple(logs)
 
 
 def compute_place_checksum(place: str) -> str:
@@ -291,11 +285,9 @@ def load_model(path: str | Path) -> IdentifiedModel:
     if _read_entry(raw, "signature", str, where) != spec.compute_signature():
         raise _make_refusal(where, "the manifest was changed after it was saved: wrong signature")
     fit, count = _read_fit(raw, where), len(spec.base)
-    if (
-        [p.name for p in fit.parameters] != [base.name for base in spec.base]
-        or fit.covariance.shape != (count, count)
-        or spec.robot != _read_entry(raw, "robot", str, where)
-    ):
+    same = [p.name for p in fit.parameters] == [base.name for base in spec.base]
+    same = same and spec.robot == _read_entry(raw, "robot", str, where)
+    if not same or fit.covariance.shape != (count, count):
         what = f"the values are not those of the {count} base parameters of its manifest"
         raise _make_refusal(where, what)
     for what in itertools.chain(_find_wrong_values(fit), _find_wrong_covariance(fit)):
@@ -447,17 +439,14 @@ def build_fitted_spec(model: IdentifiedModel) -> FittedSpec:
     fit, joints = model.fit, model.spec.joints
     verdict = fit.verdict
     gains = tuple(joint.drive_gain for joint in joints if joint.drive_gain is not None)
-    return FittedSpec(
-        method=fit.method,
-        valid=None if verdict is None else verdict.valid,
-        verdict="" if verdict is None else verdict.line,
-        warnings=() if verdict is None else verdict.warnings,
-        notes=tuple(_write_remarks(model)),
-        parameters=tuple(
-            FittedParameter(p.name, p.unit, p.value, p.sigma, p.essential) for p in fit.parameters
-        ),
-        gains=gains if len(gains) == len(joints) else (),
-    )
+    judged: tuple[bool | None, str, tuple[str, ...]] = (None, "", ())
+    if verdict is not None:
+        judged = verdict.valid, verdict.line, verdict.warnings
+    every = [(p.name, p.unit, p.value, p.sigma, p.essential) for p in fit.parameters]
+    values = tuple(FittedParameter(*p) for p in every)
+    gains = gains if len(gains) == len(joints) else ()
+    remarks = tuple(_write_remarks(model))
+    return FittedSpec(fit.method, *judged, remarks, values, gains)
 
 
 def _write_remarks(model: IdentifiedModel) -> list[str]:

@@ -182,11 +182,10 @@ def select_essential_parameters(
         DataError: `below` is no positive number.
     """
     if below is not None and not 0.0 < below < np.inf:
-        raise DataError(
-            f"essential parameters: got sigmas below {below:g} %; expected a number above 0, as 15"
-        )
-    whole = data.combine_joints(full.sigma) if full.whole is None else full.whole
-    search = _Elimination(data, full, compute_triangle(whole), whole, below)
+        got = f"got sigmas below {below:g} %"
+        raise DataError(f"essential parameters: {got}; expected a number above 0, as 15")
+    search = _Elimination(data, full, below)
+    whole = search.whole
     columns, left, ratio, limit = search.run()
     dropped = tuple(data.names[i] for i in left)
     unused = [column.name for column in full.rank.dropped_columns]
@@ -208,16 +207,10 @@ _Sets = tuple[list[int], list[int]]
 class _Elimination:
     """Searches the essential columns of a triangle."""
 
-    def __init__(
-        self,
-        data: CompressedRegression,
-        full: Estimate,
-        triangle: np.ndarray,
-        whole: np.ndarray,
-        below: float | None,
-    ) -> None:
+    def __init__(self, data: CompressedRegression, full: Estimate, below: float | None) -> None:
         self.data, self.degrees, self.below = data, full.degrees, below
-        self.triangle, self.whole = triangle, whole
+        self.whole = data.combine_joints(full.sigma) if full.whole is None else full.whole
+        self.triangle = compute_triangle(self.whole)
         self.every = list(full.rank.kept_columns)
         self.squares = self.sum_squares(self.every)
         self.noise = max(self.squares / full.degrees, np.finfo(float).tiny)
@@ -267,10 +260,8 @@ class _Elimination:
         while current is not best:
             current = best
             columns, dropped = current
-            back = [
-                self.drop_weakest(sorted([*columns, i]), [j for j in dropped if j != i], i)
-                for i in dropped
-            ]
+            others = {i: [j for j in dropped if j != i] for i in dropped}
+            back = [self.drop_weakest(sorted([*columns, i]), o, i) for i, o in others.items()]
             tried = [current, *back]
             best = min(tried, key=lambda sets: (len(sets[0]), self.sum_squares(sets[0])))
         return *best, *self.test_columns(best[0])

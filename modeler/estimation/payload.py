@@ -152,22 +152,17 @@ def _add_load(
     gone = [n for i, n in enumerate(names) if i not in kept_columns and n not in idle]
     notes = [f"{names[k]}R_{payload.name} = {text}" for k, text in sums.items()]
     if gone:
-        notes.insert(
-            0,
-            f"{', '.join(gone)} of the load are not identifiable apart from the others and are "
-            "grouped with them",
-        )
+        why = "are not identifiable apart from the others and are grouped with them"
+        notes.insert(0, f"{', '.join(gone)} of the load {why}")
     if idle:
         notes.insert(0, f"{', '.join(idle)} of the load have no effect on the torques")
-    return dataclasses.replace(
-        equations,
-        extra=np.column_stack([equations.extra, columns[:, kept_columns]]),
-        y=y,
-        names=(*equations.names, *load_names),
-        units=(*equations.units, *(model.spec.standard[places[i]].unit for i in kept_columns)),
-        sentences=(*equations.sentences, *(f"{payload.name}: {note}" for note in notes)),
-        loaded_logs=(*equations.loaded_logs, *payload.logs),
-    )
+    units = (*equations.units, *(model.spec.standard[places[i]].unit for i in kept_columns))
+    extra = np.column_stack([equations.extra, columns[:, kept_columns]])
+    every = *equations.names, *load_names
+    equations = dataclasses.replace(equations, extra=extra, y=y, names=every, units=units)
+    notes = [*equations.sentences, *(f"{payload.name}: {note}" for note in notes)]
+    logs = *equations.loaded_logs, *payload.logs
+    return dataclasses.replace(equations, sentences=tuple(notes), loaded_logs=logs)
 
 
 def find_carrier(spec: ModuleSpec) -> str:
@@ -298,16 +293,11 @@ def _find_moved_load(model: CompiledModel, observation: Observation, payload: Pa
     parts = separate_payload(payload)
     equations = build_loaded_equations(model, observation, parts).equations
     fit = fit_equations(observation, equations, "weighted", noise_only=True)
-    first_moments = [
-        {
-            p.name.removesuffix(f"_{part.name}"): p
-            for p in fit.loads
-            if p.name.endswith(f"_{part.name}")
-            and p.sigma is not None
-            and p.name.startswith(("MX", "MY", "MZ"))
-        }
-        for part in parts
-    ]
+    moments = [p for p in fit.loads if p.sigma is not None and p.name[:2] in ("MX", "MY", "MZ")]
+    ends = [f"_{part.name}" for part in parts]
+    every = [[p for p in moments if p.name.endswith(end)] for end in ends]
+    named = zip(ends, every, strict=True)
+    first_moments = [{p.name.removesuffix(end): p for p in some} for end, some in named]
     values = [abs(p.value) for moments in first_moments for p in moments.values()]
     least = THRESHOLDS.min_moment_share * max(values, default=0.0)
     worst, line = THRESHOLDS.different_log_sigmas, ""

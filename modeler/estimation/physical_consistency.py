@@ -254,6 +254,9 @@ _BASIS[range(10), _COLUMN, _ROW] = _BASIS[range(10), _ROW, _COLUMN]
 """Of the symmetric matrices, orthonormal."""
 
 
+_Matrices = Mapping[str, np.ndarray]
+
+
 @dataclass(frozen=True, eq=False)
 class _Problem:
     """Describes the rows A chi = z, and what is added to their squares."""
@@ -359,9 +362,7 @@ class _Problem:
             moves.append(move)
         return np.hstack(moves)
 
-    def find_bounded_links(
-        self, roots: Mapping[str, np.ndarray], chi: np.ndarray
-    ) -> tuple[str, ...]:
+    def find_bounded_links(self, roots: _Matrices, chi: np.ndarray) -> tuple[str, ...]:
         """Returns links that leave their bound on the shortest way to the least squares."""
         T = self.build_moves(roots)
         step = np.linalg.lstsq(self.A @ T, self.z - self.A @ chi, rcond=1e-12)[0]
@@ -369,9 +370,7 @@ class _Problem:
         least = np.linalg.eigvalsh(np.eye(4) + turns.reshape(-1, 4, 4))[:, 0]
         return tuple(name for name, x in zip(self.machine.links, least, strict=True) if x < 0.0)
 
-    def compute_covariance(
-        self, roots: Mapping[str, np.ndarray], bounded: Sequence[str]
-    ) -> np.ndarray:
+    def compute_covariance(self, roots: _Matrices, bounded: Sequence[str]) -> np.ndarray:
         """Returns (m, m) inverse of the curvature.
 
         Around X = 1 the curvature of -log det X is the identity in an orthonormal basis of the

@@ -26,21 +26,11 @@ from scipy.special import chdtrc, chdtri
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import format_percent
+from modeler.estimation import physical_consistency
 from modeler.estimation.covariance import compute_roots
 from modeler.estimation.least_squares import Estimate, expand_columns, solve_by_qr
-from modeler.estimation.physical_consistency import (
-    compute_pseudo_inertia,
-    define_physical_parameters,
-    extract_parameters,
-)
 from modeler.estimation.thresholds import THRESHOLDS
-from modeler.numerics.least_squares import (
-    CompressedRegression,
-    compute_column_norms,
-    compute_triangle,
-    find_independent_columns,
-    solve_scaled_least_squares,
-)
+from modeler.numerics import least_squares
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,7 +84,7 @@ class Prior:
         every = [i for places in self.groups.values() for i in places]
         K, least = M @ self.K, THRESHOLDS.rounding_share
         loose = np.delete(K, every, axis=1)
-        U, s, _ = np.linalg.svd(loose / compute_column_norms(loose))
+        U, s, _ = np.linalg.svd(loose / least_squares.compute_column_norms(loose))
         N = U[:, int(np.sum(s > least * s.max(initial=1.0))) :].T
         largest = np.abs(N @ K[:, every]).max(axis=1, initial=0.0)
         N = N[largest > least * np.abs(K).max(initial=0.0)]
@@ -188,7 +178,7 @@ class Prior:
     def combine_with_data(
         self,
         estimate: Estimate,
-        data: CompressedRegression,
+        data: least_squares.CompressedRegression,
         covariance: np.ndarray,
         more: np.ndarray | float = 0.0,
         joints: Sequence[str] = (),
@@ -213,7 +203,7 @@ class Prior:
         M, V = np.zeros((len(columns), c)), covariance[np.ix_(columns, columns)]
         rest = np.setdiff1d(np.arange(c), columns)
         M[:, columns] = np.eye(len(columns))
-        M[:, rest] = solve_scaled_least_squares(whole[:, columns], whole[:, rest])
+        M[:, rest] = least_squares.solve_scaled_least_squares(whole[:, columns], whole[:, rest])
         values = estimate.beta[columns]
         whitened = compute_roots(V)[1] @ np.column_stack([M, values])
         doubt = V + np.diag(np.broadcast_to(more, c)[columns])
@@ -221,7 +211,7 @@ class Prior:
         prior = self.exclude_groups([name for name in against if not self._is_fixed(name)])
         lengths = np.linalg.norm(whitened[:, :-1], axis=0)
         both = np.vstack([whitened, prior.extend_rows(lengths)])
-        rank = find_independent_columns(both[:, :-1], data.names)
+        rank = least_squares.find_independent_columns(both[:, :-1], data.names)
         used = list(rank.kept_columns)
         values, half = solve_by_qr(both[:, used], both[:, -1])
         beta, posterior = expand_columns(c, used, values, half @ half.T)
@@ -237,7 +227,7 @@ class Prior:
             beta=beta,
             covariance=posterior,
             rank=rank,
-            whole=compute_triangle(np.vstack([both, noise])),
+            whole=least_squares.compute_triangle(np.vstack([both, noise])),
             prior_share=share,
             fixed_names=self.fixed_names,
             contradicted=(*against.values(), *raised),
@@ -259,7 +249,10 @@ class Prior:
 
 
 def _find_raised_errors(
-    data: CompressedRegression, free: np.ndarray, beta: np.ndarray, joints: Sequence[str]
+    data: least_squares.CompressedRegression,
+    free: np.ndarray,
+    beta: np.ndarray,
+    joints: Sequence[str],
 ) -> list[str]:
     """Returns a line for each joint whose error the prior raises beyond three standard errors."""
     torque = data.compute_torque_norms()
@@ -276,7 +269,7 @@ def _find_raised_errors(
 
 def build_prior(spec: ModuleSpec) -> Prior | None:
     """Returns the prior of a robot file; None without `[parameters.uncertainty]` and `held`."""
-    machine, every = define_physical_parameters(spec), spec.standard
+    machine, every = physical_consistency.define_physical_parameters(spec), spec.standard
     share = spec.inertial_uncertainty
     if share is None and all(p.deviation is None for p in every):
         return None
@@ -320,7 +313,7 @@ def compute_body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndar
         ten: in the order of `PREFIXES`, SI.
         share: relative uncertainty.
     """
-    none, mass, P = np.zeros((10, 10)), ten[9], compute_pseudo_inertia(ten)
+    none, mass, P = np.zeros((10, 10)), ten[9], physical_consistency.compute_pseudo_inertia(ten)
     if mass <= 0.0:
         return "mass of 0" if mass == 0.0 else "negative mass", none
     centre = P[:3, 3] / mass
@@ -335,8 +328,10 @@ def compute_body_covariance(ten: np.ndarray, share: float) -> tuple[str, np.ndar
     about = share * np.repeat([moments, mass * metre, mass], [6, 3, 1])
     carry = np.eye(4)
     carry[:3, 3] = centre
-    moved = np.einsum("ai,ijk,bj->abk", carry, compute_pseudo_inertia(np.diag(about)), carry)
-    turned = extract_parameters(moved)
+    moved = np.einsum(
+        "ai,ijk,bj->abk", carry, physical_consistency.compute_pseudo_inertia(np.diag(about)), carry
+    )
+    turned = physical_consistency.extract_parameters(moved)
     return "", turned @ turned.T
 
 

@@ -56,15 +56,11 @@ class ModelFigures(ShortRepr):
 
     def format_cells(self) -> tuple[str, ...]:
         """Returns the cells of the model's line of the table."""
-        return (
-            f"{self.rows}",
-            f"{self.condition_scaled:.4g}",
-            f"{self.precise_count}",
-            format_percent(self.torque_error),
-            format_percent(self.torque_sigma),
-            "-" if self.imbalance is None else f"{self.imbalance:.1e}",
-            "-" if self.bias is None else f"{self.bias:.2g} sigma",
-        )
+        errors = (format_percent(x) for x in (self.torque_error, self.torque_sigma))
+        missed = "-" if self.imbalance is None else f"{self.imbalance:.1e}"
+        bias = "-" if self.bias is None else f"{self.bias:.2g} sigma"
+        counts = f"{self.rows}", f"{self.condition_scaled:.4g}", f"{self.precise_count}"
+        return *counts, *errors, missed, bias
 
 
 @dataclass(frozen=True)
@@ -204,11 +200,8 @@ def compute_friction_by_direction(
     """
     parameters, covariance = fit.parameters, fit.covariance
     keys = {parameter.name: (parameter.effect, parameter.joint) for parameter in spec.standard}
-    column = {
-        keys[base.column_of]: i
-        for i, base in enumerate(spec.base)
-        if base.column_of in keys and parameters[i].sigma is not None
-    }
+    known = [(i, b) for i, b in enumerate(spec.base) if parameters[i].sigma is not None]
+    column = {keys[base.column_of]: i for i, base in known if base.column_of in keys}
     frictions = []
     for joint in spec.joints:
         if ("asymmetric_viscous", joint.name) not in column:
@@ -233,14 +226,11 @@ def format_directions(directions: tuple[DirectedFriction, ...]) -> list[str]:
     if not directions:
         return []
     width = max(9, *(len(item.name) for item in directions))
-    return [
-        f"{'direction':<{width}} {'value':>13} {'sigma':>10}  unit",
-        *(
-            f"{item.name:<{width}} {item.value:>13.6g} {item.sigma:>10.3g}  {item.unit:<10} "
-            f"{item.relation}"
-            for item in directions
-        ),
-    ]
+    lines = [f"{'direction':<{width}} {'value':>13} {'sigma':>10}  unit"]
+    for item in directions:
+        numbers = f"{item.value:>13.6g} {item.sigma:>10.3g}"
+        lines.append(f"{item.name:<{width}} {numbers}  {item.unit:<10} {item.relation}")
+    return lines
 
 
 @dataclass(frozen=True)
@@ -439,13 +429,10 @@ class FitResult(Result):
         plain |= select_attributes(self, "standard essential prior_conflicts directions")
         plain["model"] = "torque" if self.energy is None else "energy"
         plain |= select_attributes(self, "energy bands")
-        plain |= {
-            "valid": None,
-            "valid_for": None,
-            "verdict": None,
-            "warnings": [],
-            "physically_consistent": None,
-        }
+        plain |= dict.fromkeys(
+            ("valid", "valid_for", "verdict", "warnings", "physically_consistent")
+        )
+        plain["warnings"] = []
         if verdict is not None:
             plain |= select_attributes(verdict, "valid valid_for warnings physically_consistent")
             plain["verdict"] = verdict.line
@@ -524,11 +511,8 @@ def _read_verdict(raw: Mapping[str, Any]) -> Verdict | None:
     """Returns None where the fit was not judged."""
     if raw.get("valid") is None:
         return None
-    judged = {
-        name: {"state": joint["state"], "why": joint["why"]}
-        for name, joint in raw["joints"].items()
-        if "state" in joint
-    }
+    joints = {name: joint for name, joint in raw["joints"].items() if "state" in joint}
+    judged = {name: {key: joint[key] for key in ("state", "why")} for name, joint in joints.items()}
     values = {"warnings": [], **raw, "line": raw["verdict"], "by_joint": judged}
     return read_back(Verdict, values, "its verdict")
 

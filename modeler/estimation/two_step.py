@@ -21,6 +21,7 @@ from modeler.core.choices import TWO_STEPS
 from modeler.core.errors import DataError
 from modeler.core.json import select_attributes
 from modeler.core.table import format_percent
+from modeler.estimation import single_joint
 from modeler.estimation.covariance import estimate_autocorrelation
 from modeler.estimation.identify import (
     build_base_equations,
@@ -31,13 +32,6 @@ from modeler.estimation.identify import (
 from modeler.estimation.least_squares import Estimate, solve_least_squares
 from modeler.estimation.parameters import select_essential_parameters
 from modeler.estimation.result import FitResult
-from modeler.estimation.single_joint import (
-    JointDirections,
-    SingleJointMotion,
-    SingleJointMove,
-    find_single_joint_moves,
-    fit_single_joint_motions,
-)
 from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.filters import LEAST_WEIGHT
 from modeler.numerics.least_squares import CompressedRegression, compress_rows
@@ -61,7 +55,7 @@ class FirstStep:
     """
 
     joint: int
-    along: SingleJointMotion
+    along: single_joint.SingleJointMotion
     Q: np.ndarray
     R: np.ndarray
     projected: np.ndarray
@@ -110,7 +104,7 @@ class TwoStepEstimate:
         estimate: of the base parameters.
     """
 
-    directions: JointDirections
+    directions: single_joint.JointDirections
     configurations: tuple[Configuration, ...]
     left_out: Mapping[str, int]
     simultaneous_time: float
@@ -119,7 +113,7 @@ class TwoStepEstimate:
 
 
 def estimate_two_steps(
-    model: CompiledModel, observation: Observation, directions: JointDirections
+    model: CompiledModel, observation: Observation, directions: single_joint.JointDirections
 ) -> TwoStepEstimate:
     """Returns the two-step estimate.
 
@@ -131,7 +125,7 @@ def estimate_two_steps(
     Raises:
         DataError: no piece in which one joint moves and the others stand, or none long enough.
     """
-    moves, several, total = find_single_joint_moves(observation, directions)
+    moves, several, total = single_joint.find_single_joint_moves(observation, directions)
     steps = [_solve_first_step(model, observation, directions, move) for move in moves]
     left_out = Counter(step for step in steps if isinstance(step, str))
     alike: dict[tuple[int, ...], list[Configuration]] = {}  # by who moves, and whose torque is used
@@ -176,8 +170,8 @@ def _solve_second_step(
 def _solve_first_step(
     model: CompiledModel,
     observation: Observation,
-    directions: JointDirections,
-    move: SingleJointMove,
+    directions: single_joint.JointDirections,
+    move: single_joint.SingleJointMove,
 ) -> Configuration | str:
     """Returns least squares of torques while one joint moves; a text where that cannot be."""
     part, i = observation.stretches[move.part], move.joint
@@ -197,7 +191,7 @@ def _solve_first_step(
     usable, others = _find_usable(part.usable[window], directions, i)
     used = rows.compute_usable_share(usable[:, None])[:, 0] >= LEAST_WEIGHT
     order, first_steps = [i, *others], list[FirstStep]()
-    motions = fit_single_joint_motions(
+    motions = single_joint.fit_single_joint_motions(
         model, pose @ directions.rows, pose[i], way, span, directions.rows[order]
     )
     for k, along in zip(order, motions, strict=True):
@@ -219,7 +213,7 @@ def _solve_first_step(
 
 
 def _find_usable(
-    usable: np.ndarray, directions: JointDirections, i: int
+    usable: np.ndarray, directions: single_joint.JointDirections, i: int
 ) -> tuple[np.ndarray, list[int]]:
     """Returns (samples,) at which torques count, and the other joints whose torques do too.
 
@@ -237,7 +231,9 @@ def _find_usable(
     return rows, others
 
 
-def _fit_first_step(joint: int, along: SingleJointMotion, filtered: np.ndarray) -> FirstStep | None:
+def _fit_first_step(
+    joint: int, along: single_joint.SingleJointMotion, filtered: np.ndarray
+) -> FirstStep | None:
     """Returns step 1 from its columns and torque; None where coefficients are not identifiable."""
     X, y = filtered[:, :-1], filtered[:, -1]
     rows, count = X.shape
@@ -361,13 +357,10 @@ def compute_excitations(
     results = []
     for i in sorted({c.joint for c in steps.configurations}):
         logged = np.array([c.pose for c in steps.configurations if c.joint == i]) @ directions.rows
-        values, every = (
-            _compute_singular_values(build_inertia_rows(model, q, directions.rows[i]))
-            for q in (logged, poses)
-        )
-        usual = every[-1] / every[0]
-        name = directions.names[i]
-        results.append(PersistentExcitation(name, len(logged), values, len(every), usual))
+        rows = (build_inertia_rows(model, q, directions.rows[i]) for q in (logged, poses))
+        values, every = map(_compute_singular_values, rows)
+        numbers = len(logged), values, len(every), every[-1] / every[0]
+        results.append(PersistentExcitation(directions.names[i], *numbers))
     return tuple(results)
 
 
@@ -401,10 +394,8 @@ class TwoStepFit:
 
     def format_lines(self) -> list[str]:
         """Returns lines: step 1 by configuration, singular values of Phi, both fits."""
-        unused = [
-            f"{count} piece{'s' * (count > 1)} not used: {why}"
-            for why, count in self.steps.left_out.items()
-        ]
+        pieces = [(f"{n} piece{'s' * (n > 1)}", why) for why, n in self.steps.left_out.items()]
+        unused = [f"{some} not used: {why}" for some, why in pieces]
         if self.steps.simultaneous_time > 0.0:
             time = self.steps.simultaneous_time
             unused.append(f"{time:.3g} s not used: several joints move")
@@ -435,10 +426,8 @@ class TwoStepFit:
     def _format_line(self, c: Configuration) -> str:
         names = self.steps.directions.names
         where = ", ".join(f"q{name} {x:.2f}" for name, x in self._collect_others(c).items())
-        cells = [
-            f"{'J' if name == 'qdd' else name} {x:.5g} +- {s:.2g}"
-            for name, x, s in c.compute_coefficients(0)
-        ]
+        every = [("J" if n == "qdd" else n, x, s) for n, x, s in c.compute_coefficients(0)]
+        cells = [f"{name} {x:.5g} +- {s:.2g}" for name, x, s in every]
         further = [names[f.joint] for f in c.first_steps[1:]]
         also = f"; torque of joint {', '.join(further)} too" if further else ""
         return (
@@ -455,12 +444,9 @@ class TwoStepFit:
         head = f"{'two-step':>12} {'sigma':>9} {'one-step':>12} {'sigma':>9}"
         lines = [f"{'parameter':<{width}} {head}"]
         for pair in zip(self.result.parameters, self.one_step.parameters, strict=True):
-            cells = [
-                f"{'set aside':>12} {'':>9}"
-                if p.sigma is None
-                else f"{p.value:>12.6g} {p.sigma:>9.3g}"
-                for p in pair
-            ]
+            both = [(p.value, p.sigma) for p in pair]
+            none = f"{'set aside':>12} {'':>9}"
+            cells = [none if s is None else f"{x:>12.6g} {s:>9.3g}" for x, s in both]
             lines.append(f"{pair[0].name:<{width}} {cells[0]} {cells[1]}")
         two, one = (format_percent(f.relative_error) for f in (self.result, self.one_step))
         return [*lines, f"relative error {two} in two steps, {one} in one"]
@@ -468,23 +454,18 @@ class TwoStepFit:
     def to_json(self) -> dict[str, Any]:
         """Returns the object `two_step` beside that of the fit."""
         names = self.steps.directions.names
+
+        def describe(c: Configuration) -> dict[str, Any]:
+            plain = select_attributes(c, "log start end") | {"joint": names[c.joint]}
+            plain |= {"others": self._collect_others(c), "rows": len(c.first_steps[0].residual)}
+            torques = {}
+            for k, f in enumerate(c.first_steps):
+                rows = c.compute_coefficients(k)
+                torques[names[f.joint]] = {name: {"value": x, "sigma": s} for name, x, s in rows}
+            return plain | {"torques": torques}
+
         return {
-            "configurations": [
-                {
-                    **select_attributes(c, "log start end"),
-                    "joint": names[c.joint],
-                    "others": self._collect_others(c),
-                    "rows": len(c.first_steps[0].residual),
-                    "torques": {
-                        names[f.joint]: {
-                            name: {"value": x, "sigma": s}
-                            for name, x, s in c.compute_coefficients(k)
-                        }
-                        for k, f in enumerate(c.first_steps)
-                    },
-                }
-                for c in self.steps.configurations
-            ],
+            "configurations": [describe(c) for c in self.steps.configurations],
             "skipped_logs": dict(self.steps.left_out),
             "simultaneous_motion_time": self.steps.simultaneous_time,
             "excitation": [excitation.to_json() for excitation in self.excitation],
@@ -495,7 +476,7 @@ class TwoStepFit:
 def identify_in_two_steps(
     model: CompiledModel,
     observation: Observation,
-    directions: JointDirections,
+    directions: single_joint.JointDirections,
     below: float | None = None,
 ) -> TwoStepFit:
     """Returns the two-step fit of an observation, and the one-step fit beside it.

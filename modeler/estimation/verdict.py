@@ -8,6 +8,7 @@ from scipy.special import chdtri
 
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import format_percent
+from modeler.estimation import physical_consistency
 from modeler.estimation.covariance import estimate_autocorrelation
 from modeler.estimation.identify import (
     CrossValidation,
@@ -19,11 +20,6 @@ from modeler.estimation.identify import (
     find_connected_rows,
 )
 from modeler.estimation.least_squares import solve_by_qr
-from modeler.estimation.physical_consistency import (
-    attribute_distance,
-    define_physical_parameters,
-    project_parameters,
-)
 from modeler.estimation.prior import build_prior
 from modeler.estimation.result import (
     FitResult,
@@ -33,11 +29,7 @@ from modeler.estimation.result import (
     compute_friction_by_direction,
 )
 from modeler.estimation.thresholds import THRESHOLDS
-from modeler.numerics.least_squares import (
-    CompressedRegression,
-    compute_triangle,
-    find_independent_columns,
-)
+from modeler.numerics import least_squares
 from modeler.regression import (
     THRESHOLDS as REGRESSION,
     DataWarning,
@@ -50,13 +42,8 @@ NOT_FITTED = "no row was fitted"
 """Why a joint is not determined that has no motor, or no torque in its rows."""
 
 _EARTH = 9.81  # m/s^2
-_TIME_UNITS = {
-    "milliseconds": 1e-3,
-    "microseconds": 1e-6,
-    "nanoseconds": 1e-9,
-    "minutes": 60.0,
-    "hours": 3600.0,
-}
+_TIME_UNITS = {"milliseconds": 1e-3, "microseconds": 1e-6, "nanoseconds": 1e-9}
+_TIME_UNITS |= {"minutes": 60.0, "hours": 3600.0}
 _LOG_RATES = (20.0, 2e4)  # Hz; at which robots are logged
 
 
@@ -91,11 +78,8 @@ def find_negative_values(spec: ModuleSpec, result: FitResult) -> list[DataWarnin
 def _list_moving_joints(result: FitResult) -> list[JointFit]:
     """Returns joints with an error that move: at rest, dry friction is no error of the model."""
     floors = result.processing.speed_floors or {}
-    return [
-        joint
-        for joint in result.joints
-        if joint.relative_error is not None and floors.get(joint.name) != float("inf")
-    ]
+    moving = [joint for joint in result.joints if floors.get(joint.name) != float("inf")]
+    return [joint for joint in moving if joint.relative_error is not None]
 
 
 def find_lack_of_fit(result: FitResult) -> list[DataWarning]:
@@ -157,13 +141,10 @@ def find_systematic_residuals(result: FitResult, systematic_share: np.ndarray) -
 def find_few_rows(result: FitResult, seen: CrossValidation) -> list[DataWarning]:
     """Returns a warning on joints whose held-out torques the fit does not predict."""
     errors = dict(zip((joint.name for joint in result.joints), seen.errors, strict=True))
-    lost = {
-        joint.name: errors[joint.name]
-        for joint in _list_moving_joints(result)
-        if np.isfinite(errors[joint.name])
-        and errors[joint.name]
-        > max(THRESHOLDS.max_fit_error, THRESHOLDS.max_error_ratio * (joint.relative_error or 0.0))
-    }
+    least, ratio = THRESHOLDS.max_fit_error, THRESHOLDS.max_error_ratio
+    most = {j.name: ratio * (j.relative_error or 0.0) for j in _list_moving_joints(result)}
+    lost = {name: errors[name] for name in most if errors[name] > max(least, most[name])}
+    lost = {name: error for name, error in lost.items() if np.isfinite(error)}
     if not lost:
         return []
     error = max(lost.values())
@@ -334,7 +315,7 @@ def judge_fit(
     log_warnings: Sequence[DataWarning] = (),
     equations: Equations | None = None,
     refit: Callable[[np.ndarray], np.ndarray] | None = None,
-    data: CompressedRegression | None = None,
+    data: least_squares.CompressedRegression | None = None,
 ) -> FitResult:
     """Returns the fit with its verdict.
 
@@ -399,15 +380,11 @@ def _judge_joints(
 
     A warning on no joint that leaves prediction and values as they are speaks against none.
     """
-    names = {joint.name for joint in result.joints}
-    verdicts = {}
+    names, verdicts = {joint.name for joint in result.joints}, {}
+    grave = [w for w in warnings if w.is_certain or w.affects_values]
+    general = {id(w) for w in grave if not names & set(w.joints)}
     for joint, error, block_error in zip(result.joints, seen.errors, worst, strict=True):
-        joint_warnings = [
-            warning
-            for warning in warnings
-            if joint.name in warning.joints
-            or (not names & set(warning.joints) and (warning.is_certain or warning.affects_values))
-        ]
+        joint_warnings = [w for w in warnings if joint.name in w.joints or id(w) in general]
         lines = tuple(dict.fromkeys(warning.line for warning in joint_warnings))
         errors = f"fit error {format_percent(joint.relative_error)}"
         if np.isfinite(error):
@@ -416,14 +393,13 @@ def _judge_joints(
         is_bad |= bool(error > THRESHOLDS.max_cross_validated_error)
         is_doubtful = error > THRESHOLDS.good_error or block_error > THRESHOLDS.max_block_error
         if joint.relative_error is None:
-            verdict = JointVerdict("undetermined", (NOT_FITTED, *lines))
+            verdicts[joint.name] = JointVerdict("undetermined", (NOT_FITTED, *lines))
         elif is_bad:
-            verdict = JointVerdict("undetermined", lines or (errors,))
+            verdicts[joint.name] = JointVerdict("undetermined", lines or (errors,))
         elif joint_warnings or is_doubtful:
-            verdict = JointVerdict("doubtful", lines or (errors,))
+            verdicts[joint.name] = JointVerdict("doubtful", lines or (errors,))
         else:
-            verdict = JointVerdict("good", (errors,))
-        verdicts[joint.name] = verdict
+            verdicts[joint.name] = JointVerdict("good", (errors,))
     return verdicts
 
 
@@ -446,7 +422,7 @@ def _describe_prediction(
 
 
 def _compute_torque_ratio(
-    data: CompressedRegression, observation: Observation, rows: np.ndarray
+    data: least_squares.CompressedRegression, observation: Observation, rows: np.ndarray
 ) -> np.ndarray:
     """Returns (n,) rms torque of all rows over the observation's; 1 where either has none."""
     count = len(data.rows)
@@ -462,7 +438,7 @@ def find_contradictions(
     observation: Observation,
     result: FitResult,
     log_warnings: Sequence[DataWarning] = (),
-    data: CompressedRegression | None = None,
+    data: least_squares.CompressedRegression | None = None,
 ) -> list[str]:
     """Returns why a fit is certainly not valid, other than for lack of data.
 
@@ -505,7 +481,7 @@ def _collect_values(result: FitResult) -> np.ndarray:
     return np.append(result.beta, [load.value for load in result.loads])
 
 
-def _compute_spread(data: CompressedRegression, result: FitResult) -> np.ndarray:
+def _compute_spread(data: least_squares.CompressedRegression, result: FitResult) -> np.ndarray:
     """Returns (c,) ||W_jc|| sigma_c / ||y_j|| of the joint where it is largest."""
     sigma = np.sqrt(np.diag(result.covariance))
     column = np.linalg.norm(data.triangles[:, :, : len(sigma)], axis=1)
@@ -516,21 +492,23 @@ def _compute_spread(data: CompressedRegression, result: FitResult) -> np.ndarray
 
 
 def _find_impossible(
-    spec: ModuleSpec, result: FitResult, data: CompressedRegression
+    spec: ModuleSpec, result: FitResult, data: least_squares.CompressedRegression
 ) -> list[DataWarning]:
     """Returns a warning if no completion of the values is physically consistent."""
-    machine, c = define_physical_parameters(spec), len(result.beta)
+    machine, c = physical_consistency.define_physical_parameters(spec), len(result.beta)
     # A root of what the rows determine of the robot's parameters, whatever those of loads are.
     whole = data.combine_joints(np.array([joint.sigma for joint in result.joints]))
     loads = whole.shape[1] - 1 - c
-    white = compute_triangle(np.hstack([whole[:, c:-1], whole[:, :c]]))[loads:, loads:]
+    white = least_squares.compute_triangle(np.hstack([whole[:, c:-1], whole[:, :c]]))[
+        loads:, loads:
+    ]
     root = white / _estimate_sigma_factors(white, result)
-    nearest = project_parameters(machine, result.beta, root)
+    nearest = physical_consistency.project_parameters(machine, result.beta, root)
     degrees = max(1, np.linalg.matrix_rank(root))
     limit = float(chdtri(degrees, THRESHOLDS.chance_probability)) ** 0.5
     if nearest is None or nearest.distance <= limit:
         return []
-    blamed = attribute_distance(machine, result.beta, root, nearest.distance)
+    blamed = physical_consistency.attribute_distance(machine, result.beta, root, nearest.distance)
     names = [name if name in machine.positive else f"the mass of link {name}" for name in blamed]
     # Relative errors with both, and the joint that loses most.
     torque, values = data.compute_torque_norms(), _collect_values(result)
@@ -562,7 +540,7 @@ def _estimate_sigma_factors(white: np.ndarray, result: FitResult) -> np.ndarray:
     """
     raised = np.sqrt(np.diag(result.covariance))
     names = [parameter.name for parameter in result.parameters]
-    rank = find_independent_columns(white, names)
+    rank = least_squares.find_independent_columns(white, names)
     columns = np.intersect1d(np.flatnonzero(raised), rank.kept_columns)
     factors = np.ones(len(raised))
     if columns.size:

@@ -144,24 +144,15 @@ def estimate_delays(
     is_significant &= left < THRESHOLDS.max_single_error * errors.whole
     delays = np.where(is_significant, delays, 0.0)
     halves = together.sum() <= THRESHOLDS.max_delayed_error * before.sum()
-    if (
-        halves
-        and abs(common[0]) >= THRESHOLDS.min_delay_steps * step
-        and np.all(together <= 2.0 * errors.sum_errors(delays))
-    ):
+    halves = halves and abs(common[0]) >= THRESHOLDS.min_delay_steps * step
+    if halves and np.all(together <= 2.0 * errors.sum_errors(delays)):
         mean = float(before.sum() / max(float(errors.whole.sum()), 1e-300))
         return [DerivativeDelay(column, lower, common[0], common[0] / step, mean)], common
     share = before / np.maximum(errors.whole, 1e-300)
-    late = [
-        DerivativeDelay(
-            f"{column}{joints[j]}",
-            f"{lower}{joints[j]}",
-            delays[j],
-            delays[j] / step,
-            float(share[j]),
-        )
-        for j in map(int, np.flatnonzero(delays))
-    ]
+    late = []
+    for j in map(int, np.flatnonzero(delays)):
+        names = f"{column}{joints[j]}", f"{lower}{joints[j]}"
+        late.append(DerivativeDelay(*names, delays[j], delays[j] / step, float(share[j])))
     return late, delays
 
 
@@ -329,16 +320,10 @@ def check_derivatives(
                 error = np.concatenate([np.abs(part.error[:, j]) for part in windows])
                 worst = int(np.argmax(np.where(np.concatenate(flags), error, 0.0)))
                 time = np.concatenate([part.time for part in windows])
-                contradictions.append(
-                    Contradiction(
-                        column=f"{column}{joint}",
-                        of=f"{lower}{joint}",
-                        samples=sum(int(mask.sum()) for mask in masks),
-                        limit=limit,
-                        largest=float(error[worst]),
-                        time=float(time[worst]),
-                    )
-                )
+                names, samples = (f"{column}{joint}", f"{lower}{joint}"), sum(map(np.sum, masks))
+                numbers = {"largest": float(error[worst]), "time": float(time[worst])}
+                one = Contradiction(*names, samples=int(samples), limit=limit, **numbers)
+                contradictions.append(one)
     return DerivativeCheck(tuple(bad), tuple(contradictions), tuple(late))
 
 
@@ -372,20 +357,15 @@ def _refuse_wrong(
     One factor on the speeds of all joints is that of the clock. `noise` (J,) is that of the lower
     signals, their resolution included; a joint that moves less has nothing to compare with.
     """
-    quotients, logged = (
-        np.concatenate([getattr(part, name) for part in windows]) for name in ("quotient", "logged")
-    )
+    quotients = np.concatenate([part.quotient for part in windows])
+    logged = np.concatenate([part.logged for part in windows])
     size = compute_size(quotients)
     length = 2 * min(part.half for part in windows) * windows[0].step
     places = map(int, np.flatnonzero(size))
     gains = {j: _estimate_gain(logged[:, j], quotients[:, j]) for j in places}
-    scaled = {
-        j
-        for j, gain in gains.items()
-        if gain
-        and _compute_misfit(logged[:, j] / gain, quotients[:, j], size[j])
-        < THRESHOLDS.max_column_error
-    }
+    used = [(j, logged[:, j] / gain, quotients[:, j]) for j, gain in gains.items() if gain]
+    most = THRESHOLDS.max_column_error
+    scaled = {j for j, values, other in used if _compute_misfit(values, other, size[j]) < most}
     like = [gain for j, gain in gains.items() if j in scaled and gain > 0.0]
     factor = find_common_factor(like) if len(like) > max(1.0, 0.5 * len(gains)) else None
     if column == "qd" and factor is not None and abs(factor - 1.0) > THRESHOLDS.max_column_error:

@@ -7,18 +7,7 @@ from typing import Literal
 import numpy as np
 from scipy.ndimage import maximum_filter
 
-from modeler.numerics.noise import (
-    NEAR,
-    REACH,
-    STEPS,
-    compute_local_threshold,
-    compute_nearby_level,
-    compute_outlier_threshold,
-    compute_running_median,
-    estimate_lattice_step,
-    find_isolated_outliers,
-    subtract_running_median,
-)
+from modeler.numerics import noise
 from modeler.regression.thresholds import THRESHOLDS
 
 Kind = Literal["wrap", "spike", "frozen", "zero", "lost", "clipped", "repeated", "held"]
@@ -67,12 +56,12 @@ def find_spikes(
     if not stretches:
         return [], floors
     channels = [[part[:, j] for part in stretches] for j in range(stretches[0].shape[1])]
-    departed = [[subtract_running_median(part) for part in channel] for channel in channels]
+    departed = [[noise.subtract_running_median(part) for part in channel] for channel in channels]
     if floors is None:
         floors = np.array(list(map(_compute_floor, channels, departed)))
     spikes = []
     for channel, sizes, floor in zip(channels, departed, floors, strict=True):
-        here = compute_local_threshold(sizes, float(floor), THRESHOLDS.max_spike_rate)
+        here = noise.compute_local_threshold(sizes, float(floor), THRESHOLDS.max_spike_rate)
         pairs = zip(channel, sizes, strict=True)
         spikes.append([_find_lone_runs(values, part, here) for values, part in pairs])
     return spikes, floors
@@ -82,14 +71,14 @@ def _compute_floor(channel: Sequence[np.ndarray], departed: Sequence[np.ndarray]
     """Returns departure below which no value of a whole channel is a spike."""
     whole = np.concatenate(channel)
     low, high = np.quantile(whole, [0.01, 0.99])
-    lonely = compute_outlier_threshold(
-        np.concatenate(departed), estimate_lattice_step(whole), THRESHOLDS.max_spike_rate
+    lonely = noise.compute_outlier_threshold(
+        np.concatenate(departed), noise.estimate_lattice_step(whole), THRESHOLDS.max_spike_rate
     )
     return max(lonely, THRESHOLDS.min_spike_share * float(high - low))
 
 
 def _find_lone_runs(values: np.ndarray, departed: np.ndarray, floor: float) -> list[Defect]:
-    places, spikes = find_isolated_outliers(departed, floor), list[Defect]()
+    places, spikes = noise.find_isolated_outliers(departed, floor), list[Defect]()
     for run in np.split(places, np.flatnonzero(np.diff(places) > 1) + 1):
         if not 0 < len(run) <= THRESHOLDS.max_spike:
             continue
@@ -142,24 +131,20 @@ def select_unexplained(
     """
     if not any(spikes for by_joint in spikes_by_joint for spikes in by_joint):
         return spikes_by_joint
-    departed = ([subtract_running_median(column) for column in tau.T] for tau in torques)
+    departed = ([noise.subtract_running_median(column) for column in tau.T] for tau in torques)
     sizes = [np.abs(np.column_stack(columns)) for columns in departed]
-    return [
-        [
-            [
-                spike
-                for spike in spikes
-                if not _is_impact(size, j, spike)
-                and not _is_corroborated(speed[:, j], spike)
-                and (
-                    abs(spike.size) > scales.range[j]
-                    or _is_moving(speed[:, j], spike, THRESHOLDS.slow_speed_share * scales.top[j])
-                )
-            ]
-            for spikes, size, speed in zip(by_stretch, sizes, speeds, strict=True)
-        ]
-        for j, by_stretch in enumerate(spikes_by_joint)
-    ]
+    slow = THRESHOLDS.slow_speed_share * scales.top
+
+    def is_unexplained(spike: Defect, j: int, size: np.ndarray, speed: np.ndarray) -> bool:
+        if _is_impact(size, j, spike) or _is_corroborated(speed, spike):
+            return False
+        return abs(spike.size) > scales.range[j] or _is_moving(speed, spike, slow[j])
+
+    every: Spikes = []
+    for j, by_stretch in enumerate(spikes_by_joint):
+        each = zip(by_stretch, sizes, (speed[:, j] for speed in speeds), strict=True)
+        every.append([[s for s in spikes if is_unexplained(s, j, *x)] for spikes, *x in each])
+    return every
 
 
 def _is_impact(sizes: np.ndarray, j: int, spike: Defect) -> bool:
@@ -170,7 +155,9 @@ def _is_impact(sizes: np.ndarray, j: int, spike: Defect) -> bool:
         if k == j:
             continue
         place = first + int(np.argmax(sizes[first:last, k]))
-        if sizes[place, k] > THRESHOLDS.impact_ratio * compute_nearby_level(sizes[:, k], place):
+        if sizes[place, k] > THRESHOLDS.impact_ratio * noise.compute_nearby_level(
+            sizes[:, k], place
+        ):
             return True
     return False
 
@@ -187,7 +174,7 @@ def _is_corroborated(speed: np.ndarray, spike: Defect) -> bool:
         spike.stop + THRESHOLDS.impact_samples - THRESHOLDS.speed_samples,
     )
     across = float(np.max(change[max(0, first) : last], initial=0.0))
-    earlier = change[max(0, first - REACH) : max(0, first - THRESHOLDS.speed_samples)]
+    earlier = change[max(0, first - noise.REACH) : max(0, first - THRESHOLDS.speed_samples)]
     before = float(np.max(earlier, initial=0.0)) if earlier.size else np.inf
     return (
         across > float(np.quantile(change, THRESHOLDS.speed_change_quantile))
@@ -247,13 +234,13 @@ def scan_jumps(
     usual = float(np.median(dt))
     turns, speed, excess = np.zeros_like(steps), np.zeros_like(steps), np.zeros_like(steps)
     for j in range(q.shape[1]):
-        speed[:, j] = compute_running_median(steps[:, j] / dt)
+        speed[:, j] = noise.compute_running_median(steps[:, j] / dt)
         excess[:, j] = _compute_excess(steps[:, j], speed[:, j], dt, usual)
         if revolute[j]:
             turns[:, j] = _find_whole_turns(excess[:, j], resolution[j])
             if turns[:, j].any():
                 whole = steps[:, j] - _TURN * turns[:, j]
-                speed[:, j] = compute_running_median(whole / dt)
+                speed[:, j] = noise.compute_running_median(whole / dt)
                 excess[:, j] = _compute_excess(whole, speed[:, j], dt, usual)
     excess[dt > THRESHOLDS.late_steps * usual] = 0.0
     speeds = np.fmax(np.abs(steps - _TURN * turns) / dt[:, None], np.abs(logged[1:]))
@@ -275,7 +262,7 @@ def compute_jump_floors(walks: Sequence[EncoderJumpScan], resolution: np.ndarray
     steps = np.concatenate([np.diff(walk.q, axis=0) - _TURN * walk.turns for walk in walks])
     top = np.quantile(np.abs(steps), THRESHOLDS.top_speed_quantile, axis=0)
     lonely = [
-        compute_outlier_threshold(joint_excess, one, THRESHOLDS.max_jump_share)
+        noise.compute_outlier_threshold(joint_excess, one, THRESHOLDS.max_jump_share)
         for joint_excess, one in zip(excess.T, resolution, strict=True)
     ]
     return np.maximum(lonely, top)
@@ -285,7 +272,9 @@ def compute_local_floors(walks: Sequence[EncoderJumpScan], known: np.ndarray) ->
     """Returns (J,) `compute_jump_floors` of a whole log for a part of it, higher if rougher."""
     share = THRESHOLDS.max_jump_share
     excess = [[walk.excess[:, j] for walk in walks] for j in range(len(known))]
-    return np.array([compute_local_threshold(*of, share) for of in zip(excess, known, strict=True)])
+    return np.array(
+        [noise.compute_local_threshold(*of, share) for of in zip(excess, known, strict=True)]
+    )
 
 
 def _compute_excess(
@@ -306,12 +295,9 @@ def _find_whole_turns(excess: np.ndarray, resolution: float) -> np.ndarray:
     places = np.flatnonzero(turns)
     left = np.abs(excess - _TURN * turns)
     for k in places:
-        tolerated = max(
-            NEAR * compute_nearby_level(left, int(k)),
-            STEPS * resolution,
-            THRESHOLDS.turn_tolerance * _TURN,
-        )
-        if left[k] > min(tolerated, 0.25 * _TURN):
+        near = noise.NEAR * noise.compute_nearby_level(left, int(k))
+        most = max(near, noise.STEPS * resolution, THRESHOLDS.turn_tolerance * _TURN)
+        if left[k] > min(most, 0.25 * _TURN):
             turns[k] = 0.0
     return np.asarray(turns)
 
@@ -330,7 +316,7 @@ def find_jumps(walk: EncoderJumpScan, time: np.ndarray, j: int, floor: float) ->
         for k in np.flatnonzero(walk.turns[:, j])
     ]
     rest, excess = [], walk.excess[:, j]
-    places = _select_sudden(excess, find_isolated_outliers(excess, floor))
+    places = _select_sudden(excess, noise.find_isolated_outliers(excess, floor))
     while places:
         k = places.pop(0)
         held = _count_frozen(walk, time, j, k)
@@ -363,7 +349,7 @@ def _select_sudden(excess: np.ndarray, places: np.ndarray) -> list[int]:
         beside = [abs(excess[i]) for i in (k - 1, k + 1) if i not in places]
         tolerated = max(
             THRESHOLDS.max_neighbour_share * abs(excess[k]),
-            NEAR * compute_nearby_level(np.abs(excess), k) / 2.0,
+            noise.NEAR * noise.compute_nearby_level(np.abs(excess), k) / 2.0,
         )
         if max(beside, default=0.0) < tolerated:
             sudden.append(k)

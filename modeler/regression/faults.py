@@ -8,18 +8,7 @@ from typing import get_args
 import numpy as np
 
 from modeler.core.manifest import ModuleSpec
-from modeler.numerics.noise import (
-    LEAST,
-    RESTS,
-    Clip,
-    estimate_hold_length,
-    estimate_lattice_step,
-    find_clips,
-    find_frozen_runs,
-    find_longest_usual_run,
-    find_repeated_rows,
-    interpolate_held_channel,
-)
+from modeler.numerics import noise
 from modeler.regression.defects import (
     Defect,
     Defects,
@@ -59,7 +48,7 @@ class ChannelScales:
     torque: TorqueScales | None
     floors: Mapping[str, np.ndarray | None]
     repeats: bool
-    clips: tuple[tuple[Clip, ...], ...]
+    clips: tuple[tuple[noise.Clip, ...], ...]
     stays: tuple[int, ...]
     held: Mapping[str, tuple[int, ...]]
 
@@ -103,33 +92,25 @@ def repair_log(
     fresh = log
     if again.any():
         steps = np.diff(log.time[kept_rows])
-        longest = 1.5 * log.step + float(steps[steps <= RESTS * np.median(steps)].max())
+        longest = 1.5 * log.step + float(steps[steps <= noise.RESTS * np.median(steps)].max())
         rate = float(np.quantile(steps, THRESHOLDS.step_quantile)), longest
         fresh = dataclasses.replace(cut_rows(log, kept_rows), robot_steps=rate)
     held = _count_held_rows(fresh) if scales is None else scales.held
     quick = [rows == 1 for rows in held["q"]]
-    clips = (
-        scales.clips
-        if scales is not None
-        else tuple(
-            find_clips(channel) if is_quick else ()
-            for channel, is_quick in zip(fresh.q.T, quick, strict=True)
-        )
-    )
+    if scales is not None:
+        clips, stays = scales.clips, scales.stays
+    else:
+        sampled = zip(fresh.q.T, quick, strict=True)
+        clips = tuple(noise.find_clips(x) if is_quick else () for x, is_quick in sampled)
+        stays = tuple(map(noise.find_longest_usual_run, fresh.tau.T))
     clipped = [_find_clipped(channel, ends) for channel, ends in zip(fresh.q.T, clips, strict=True)]
     q = _remove_defects(fresh.q, mended_by("q", clipped))
-    leaps, parts, steps, least = _find_all_jumps(
-        dataclasses.replace(fresh, q=q), spec, scales, quick
-    )
-    stays = tuple(map(find_longest_usual_run, fresh.tau.T)) if scales is None else scales.stays
+    unclipped = dataclasses.replace(fresh, q=q)
+    leaps, parts, steps, least = _find_all_jumps(unclipped, spec, scales, quick)
     others, lonely, torque = _find_spikes(fresh, scales)
-    by_channel = {
-        "q": [
-            sorted(both[0] + both[1], key=lambda one: one.start)
-            for both in zip(clipped, leaps, strict=True)
-        ],
-        **others,
-    }
+    pairs = zip(clipped, leaps, strict=True)
+    in_order = [sorted(ends + jumps, key=lambda one: one.start) for ends, jumps in pairs]
+    by_channel = {"q": in_order, **others}
     for channel, stuck in zip(by_channel["tau"], _find_frozen(fresh, stays), strict=True):
         channel += stuck
     segment, values = fresh.piece_number, dict[str, np.ndarray]()
@@ -145,20 +126,13 @@ def repair_log(
             if name == "q" and channel:
                 _join_positions(values[name][:, j], channel, parts)
             if any(one.kind == "held" for one in channel):
-                column = values[name][:, j]
-                rows, is_smooth = held[name][j], name == "q"
-                column[:] = interpolate_held_channel(fresh.time, column, rows, smooth=is_smooth)
+                column, known = values[name][:, j], (fresh.time, values[name][:, j], held[name][j])
+                column[:] = noise.interpolate_held_channel(*known, smooth=name == "q")
         lost = [one.start for channel in ours for one in channel if one.kind == "lost"]
         segment = segment + (np.arange(fresh.rows)[:, None] >= np.array(lost, int)).sum(axis=1)
     new = segment if (segment != fresh.piece_number).any() else fresh.segment
-    mended = dataclasses.replace(
-        fresh,
-        segment=new,
-        q=values["q"],
-        tau=values["tau"],
-        qd=values.get("qd"),
-        qdd=values.get("qdd"),
-    )
+    mended = dataclasses.replace(fresh, segment=new, q=values["q"], tau=values["tau"])
+    mended = dataclasses.replace(mended, qd=values.get("qd"), qdd=values.get("qdd"))
     by_channel = {
         name: [[_locate_defect(one, kept_rows, log) for one in channel] for channel in by_joint]
         for name, by_joint in by_channel.items()
@@ -174,7 +148,7 @@ def _count_held_rows(log: Log) -> dict[str, tuple[int, ...]]:
     """Returns (J,) rows for which the values of each channel are held; 1: they are not."""
     channels = {"q": log.q, "tau": log.tau, "qd": log.qd, "qdd": log.qdd}
     logged = {name: x.T for name, x in channels.items() if x is not None}
-    return {name: tuple(map(estimate_hold_length, x)) for name, x in logged.items()}
+    return {name: tuple(map(noise.estimate_hold_length, x)) for name, x in logged.items()}
 
 
 def _find_repeats(log: Log, scales: ChannelScales | None) -> np.ndarray:
@@ -182,10 +156,10 @@ def _find_repeats(log: Log, scales: ChannelScales | None) -> np.ndarray:
     if scales is not None and not scales.repeats:
         return np.zeros(log.rows, dtype=bool)
     others = [values for values in (log.tau, log.qd, log.qdd) if values is not None]
-    return find_repeated_rows(log.q, np.column_stack(others), always=scales is not None)
+    return noise.find_repeated_rows(log.q, np.column_stack(others), always=scales is not None)
 
 
-def _find_clipped(values: np.ndarray, ends: Sequence[Clip]) -> list[Defect]:
+def _find_clipped(values: np.ndarray, ends: Sequence[noise.Clip]) -> list[Defect]:
     """Returns runs at the ends of the range of a position; none where it goes beyond."""
     clipped = []
     for end in ends:
@@ -201,7 +175,7 @@ def _find_frozen(log: Log, held: Sequence[int]) -> list[list[Defect]]:
     frozen: list[list[Defect]] = []
     for j, (tau, q) in enumerate(zip(log.tau.T, log.q.T, strict=True)):
         rows = np.flatnonzero(np.isfinite(tau) & np.isfinite(q))
-        stuck = find_frozen_runs(tau[rows], q[rows], held[j]) if rows.size else []
+        stuck = noise.find_frozen_runs(tau[rows], q[rows], held[j]) if rows.size else []
         every = [Defect("frozen", *run, 0.0) for run in stuck]
         frozen.append([_locate_defect(one, rows, log) for one in every])
     return frozen
@@ -214,19 +188,18 @@ def _find_all_jumps(
     positions: list[list[Defect]] = [[] for _ in spec.joints]
     revolute = np.array([joint.kind == "revolute" for joint in spec.joints])
     steps = (
-        np.array([estimate_lattice_step(column) for column in log.q.T])
+        np.array([noise.estimate_lattice_step(column) for column in log.q.T])
         if scales is None
         else scales.steps
     )
     there = np.isfinite(log.q).all(axis=1)
-    stretches = [rows for rows in _iterate_stretches(log, there) if len(rows) > LEAST]
+    stretches = [rows for rows in _iterate_stretches(log, there) if len(rows) > noise.LEAST]
     logged = np.zeros_like(log.q) if log.qd is None else log.qd
     walks = [scan_jumps(log.time[k], log.q[k], revolute, steps, logged[k]) for k in stretches]
-    least = (
-        compute_jump_floors(walks, steps)
-        if scales is None
-        else compute_local_floors(walks, scales.leaps)
-    )
+    if scales is None:
+        least = compute_jump_floors(walks, steps)
+    else:
+        least = compute_local_floors(walks, scales.leaps)
     for rows, walk in zip(stretches, walks, strict=True):
         for j in range(len(spec.joints)):
             jumps = find_jumps(walk, log.time[rows], j, least[j])
@@ -287,7 +260,7 @@ def _find_spikes(
         there = np.isfinite(values).all(axis=1)
         if name == "tau":
             there &= np.isfinite(log.q).all(axis=1)
-        rows = [part for part in _iterate_stretches(log, there) if len(part) >= LEAST]
+        rows = [part for part in _iterate_stretches(log, there) if len(part) >= noise.LEAST]
         parts = [values[part] for part in rows]
         spikes, floors[name] = find_spikes(parts, None if scales is None else scales.floors[name])
         if name == "tau" and parts:
@@ -316,13 +289,10 @@ def find_column(log: Log, spec: ModuleSpec, name: str, j: int) -> str:
 
 def parse_repairs(log: Log, spec: ModuleSpec, names: Collection[str]) -> set[tuple[str, int, str]]:
     """Returns `Repairs` by names as "q2 zero"."""
-    return {
-        (name, j, kind)
-        for name in CHANNELS
-        for j in range(len(spec.joints))
-        for kind in get_args(Kind)
-        if f"{find_column(log, spec, name, j)} {kind}" in names
-    }
+    channels = [(name, j) for name in CHANNELS for j in range(len(spec.joints))]
+    columns = {key: find_column(log, spec, *key) for key in channels}
+    every = [(key, kind) for key in channels for kind in get_args(Kind)]
+    return {(*key, kind) for key, kind in every if f"{columns[key]} {kind}" in names}
 
 
 def select_confirmed(repairs: Mapping[str, float]) -> frozenset[str]:

@@ -10,11 +10,7 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.result import Result
-from modeler.numerics.noise import (
-    estimate_channel_noise,
-    estimate_hold_length,
-    estimate_lattice_step,
-)
+from modeler.numerics import noise
 from modeler.regression.thresholds import THRESHOLDS
 
 
@@ -95,12 +91,10 @@ class Log(Result):
     def missing(self) -> dict[str, int]:
         """Returns {column: number of rows without a value}; only columns that have any."""
         kinds = {"q": self.q, "qd": self.qd, "qdd": self.qdd, "qc": self.commanded}
-        missing_rows = {
-            f"{prefix}{name}": int(np.isnan(values[:, j]).sum())
-            for prefix, values in kinds.items()
-            if values is not None
-            for j, name in enumerate(self.joints)
-        }
+        missing_rows = dict[str, int]()
+        for prefix, values in kinds.items():
+            counts = () if values is None else np.isnan(values).sum(axis=0).tolist()
+            missing_rows |= {f"{prefix}{n}": x for n, x in zip(self.joints, counts, strict=False)}
         sources = self.torque_source or [f"tau{name}" for name in self.joints]
         for source, values in zip(sources, self.tau.T, strict=True):
             missing_rows[source.split()[0]] = int(np.isnan(values).sum())
@@ -154,12 +148,9 @@ def compute_fingerprint(*measurements: np.ndarray) -> str:
     Args:
         measurements: (n, ...) each.
     """
-    rows = len(measurements[0])
-    return (
-        compute_block_hash(*measurements).hex()
-        if rows <= LONG
-        else combine_hashes(compute_block_hashes(*measurements))
-    )
+    if len(measurements[0]) > LONG:
+        return combine_hashes(compute_block_hashes(*measurements))
+    return compute_block_hash(*measurements).hex()
 
 
 def compute_block_hashes(*measurements: np.ndarray) -> tuple[bytes, ...]:
@@ -319,14 +310,11 @@ def split_log(
     groups = np.split(rows, np.flatnonzero(cut) + 1)
     long_groups = [group for group in groups if len(group) >= THRESHOLDS.min_piece_rows]
     short = [group for group in groups if len(group) < THRESHOLDS.min_piece_rows]
-    report = SplitReport(
-        gaps=log.time[rows[1:][gap]],
-        widths=steps[gap],
-        jitter=float(np.max(np.abs(inside / log.step - 1.0))) if inside.size else 0.0,
-        short=log.time[np.concatenate([rows[:0], *short])],
-    )
-    q_step = tuple(map(estimate_lattice_step, log.q.T))
-    qd_step = () if log.qd is None else tuple(map(estimate_lattice_step, log.qd.T))
+    jitter = float(np.max(np.abs(inside / log.step - 1.0), initial=0.0))
+    few = log.time[np.concatenate([rows[:0], *short])]
+    report = SplitReport(log.time[rows[1:][gap]], steps[gap], jitter, few)
+    q_step = tuple(map(noise.estimate_lattice_step, log.q.T))
+    qd_step = () if log.qd is None else tuple(map(noise.estimate_lattice_step, log.qd.T))
     pieces = (_build_piece(log, run, group, clipped, logged_motion) for group in long_groups)
     stepped = (dataclasses.replace(part, q_step=q_step, qd_step=qd_step) for part in pieces)
     return tuple(stepped), report
@@ -348,11 +336,8 @@ def _build_piece(
     # Where rows come when they come, what lies between two is no bridge.
     steps = np.diff(measured)
     usual = float(np.quantile(steps, THRESHOLDS.uneven_quantile)) if len(steps) else 0.0
-    beside = max(
-        THRESHOLDS.bridge_distance * step,
-        0.5 * (log.robot_steps or (0.0, 0.0))[1],
-        THRESHOLDS.uneven_distance * usual,
-    )
+    apart = 0.5 * (log.robot_steps or (0.0, 0.0))[1]
+    beside = max(THRESHOLDS.bridge_distance * step, apart, THRESHOLDS.uneven_distance * usual)
     bridged = np.abs(time - measured[near]) > beside
     short = bridged & ~select_long_runs(bridged, THRESHOLDS.short_bridge)
 
@@ -461,33 +446,19 @@ def find_saturated(
     ends = [low, high]
     if extremes is not None:
         ends = [low] * (low <= extremes[0]) + [high] * (high >= extremes[1])
-    found_runs = [
-        (end, (start, stop))
-        for end in ends
-        for start, stop in find_runs(values == end)
-        if stop - start >= THRESHOLDS.min_saturated_run
-    ]
-    least = (
-        THRESHOLDS.min_saturated_travel * estimate_channel_noise(position[np.isfinite(position)])
-        if found_runs
-        else 0.0
-    )
-    travels = ((end, position[stop - 1] - position[start]) for end, (start, stop) in found_runs)
+    shortest = THRESHOLDS.min_saturated_run
+    runs = [(end, run) for end in ends for run in find_runs(values == end)]
+    runs = [(end, (start, stop)) for end, (start, stop) in runs if stop - start >= shortest]
+    least = THRESHOLDS.min_saturated_travel
+    if runs:
+        least *= noise.estimate_channel_noise(position[np.isfinite(position)])
+    travels = ((end, position[stop - 1] - position[start]) for end, (start, stop) in runs)
     moved = {end for end, travel in travels if abs(travel) > least}
-    if (
-        not moved
-        or estimate_hold_length(values if logged is None else logged)
-        >= THRESHOLDS.min_saturated_run
-    ):
+    if not moved or noise.estimate_hold_length(values if logged is None else logged) >= shortest:
         return is_saturated
-    found_runs = [(end, run) for end, run in found_runs if end in moved]
-    step = estimate_lattice_step(values)
-    resolution = (
-        step
-        if len(np.unique(values[np.isfinite(values)])) > THRESHOLDS.max_switched_values
-        else 0.0
-    )
-    for extreme, (start, stop) in found_runs:
+    several = len(np.unique(values[np.isfinite(values)])) > THRESHOLDS.max_switched_values
+    resolution = noise.estimate_lattice_step(values) if several else 0.0
+    for extreme, (start, stop) in [(end, run) for end, run in runs if end in moved]:
         beside = [values[i] for i in (start - 1, stop) if 0 <= i < len(values)]
         leap = max((abs(extreme - v) for v in beside if np.isfinite(v)), default=0.0)
         if leap > THRESHOLDS.min_saturated_jump * resolution:

@@ -76,16 +76,13 @@ class Processing(ShortRepr):
         if not (isinstance(decimation, int) and decimation >= 1):
             raise DataError(f"decimation is {self.decimation}; expected a whole number from 1")
         if not isinstance(self.speed_floors, Mapping | None):
-            raise DataError(
-                f"speed_floors is {self.speed_floors}; expected a speed by joint, as in "
-                '{"1": 0.1}'
-            )
+            expected = 'expected a speed by joint, as in {"1": 0.1}'
+            raise DataError(f"speed_floors is {self.speed_floors}; {expected}")
         if not isinstance(self.repairs, Mapping | None):
             raise DataError(f"repairs is {self.repairs}; expected a ratio by column and defect")
         if self.derivatives not in get_args(Derivatives):
-            raise DataError(
-                f'derivatives is "{self.derivatives}"; expected {", ".join(get_args(Derivatives))}'
-            )
+            possible = ", ".join(get_args(Derivatives))
+            raise DataError(f'derivatives is "{self.derivatives}"; expected {possible}')
 
     def repairs_of(self, log: str) -> dict[str, float]:
         """Returns a log's repairs, by column and kind of the defect; a held channel is in all."""
@@ -265,9 +262,8 @@ def build_segment(piece: RawSegment, processing: Processing) -> Segment | None:
         tau = tau - np.multiply(piece.induced, speed)
     if wanted is not None:
         wanted = apply_low_pass(wanted, piece.step, cutoff)
-    return Segment(
-        piece.run, piece.time, piece.step, q, qd, qdd, tau, piece.extra, whole, cause, wanted
-    )
+    where = piece.run, piece.time, piece.step
+    return Segment(*where, q, qd, qdd, tau, piece.extra, whole, cause, wanted)
 
 
 def _classify_samples(

@@ -294,17 +294,15 @@ def find_floor(
     density, meets, colour = (S[-1], f[-1], 0.0) if f.size else (0.0, None, 0.0)
     for k in range(len(f)):
         above = S[(f > f[k]) & (f <= f[k] * 2.0**THRESHOLDS.floor_octaves)]
-        if above.size < 3 or max(
-            S[k], above.max() / THRESHOLDS.floor_ratio
-        ) > THRESHOLDS.floor_ratio * np.median(above):
+        highest = max(S[k], above.max(initial=0.0) / THRESHOLDS.floor_ratio)
+        if above.size < 3 or highest > THRESHOLDS.floor_ratio * np.median(above):
             continue
         beyond = S[f > f[k] * 2.0**THRESHOLDS.floor_octaves]
         if not (last and beyond.size and S[k] > THRESHOLDS.floor_ratio**2 * np.median(beyond)):
             density, meets, colour = np.median(above), f[k], _estimate_spectral_slope(f[k:], S[k:])
             break
-    return {
-        "density": float(density),
-        "deviation": float(np.sqrt(0.5 * density * rate)),
+    floor = {"density": float(density), "deviation": float(np.sqrt(0.5 * density * rate))}
+    return floor | {
         "noise_crossover_hz": None if meets is None else float(meets),
         "spectral_slope": colour,
     }
@@ -378,11 +376,8 @@ def compute_energy_band(frequency: np.ndarray, power: np.ndarray) -> float:
         power: (n,) of the position.
     """
     total = np.cumsum(power * frequency**2)
-    return (
-        float(frequency[np.searchsorted(total, THRESHOLDS.band_energy_share * total[-1])])
-        if total[-1] > 0.0
-        else 0.0
-    )
+    place = np.searchsorted(total, THRESHOLDS.band_energy_share * total[-1])
+    return float(frequency[place]) if total[-1] > 0.0 else 0.0
 
 
 def _compute_commanded_band(piece: RawSegment) -> np.ndarray:

@@ -122,11 +122,8 @@ class Observation(Result):
     @cached_property
     def driven(self) -> list[int]:
         """Returns the indices of the joints with a motor, rows and a torque."""
-        return [
-            j
-            for j, joint in enumerate(self.joints)
-            if joint.actuated and self.torque[self.used[:, j], j].any()
-        ]
+        motors = [j for j, joint in enumerate(self.joints) if joint.actuated]
+        return [j for j in motors if self.torque[self.used[:, j], j].any()]
 
     @cached_property
     def whole(self) -> np.ndarray:
@@ -155,9 +152,8 @@ class Observation(Result):
         Args:
             evaluate: (b, n, ...) for the b samples of a segment in a window.
         """
-        return np.concatenate(
-            [part.filter_columns(partial(evaluate, part.segment)) for part in self.stretches]
-        )
+        parts = [(part, partial(evaluate, part.segment)) for part in self.stretches]
+        return np.concatenate([part.filter_columns(function) for part, function in parts])
 
 
 # A compiled model over the segments of an observation: its regressor, and what needs none.
@@ -235,15 +231,9 @@ def build_observation(
         tallies.append(whole)
         facts = whole, of.defects, wrong, decimation, times
         reports.append(build_log_report(log, model.spec, of, *facts))
-    report = DataReport(
-        processing=chosen,
-        choices=prepared.choices,
-        noise=prepared.noise,
-        band=prepared.band,
-        lowered=prepared.lowered,
-        logs=tuple(reports),
-        joints=build_joint_reports(model.spec.joints, parts, floors, tallies),
-    )
+    joints = build_joint_reports(model.spec.joints, parts, floors, tallies)
+    known = prepared.noise, prepared.band, prepared.lowered
+    report = DataReport(chosen, prepared.choices, tuple(reports), joints, *known)
     if parts and all(floor == float("inf") for floor in floors.values()):
         names = ", ".join(log.name for log in logs)
         raise DataError(f"{names}: no joint moves; expected a motion; move every joint")
@@ -277,13 +267,10 @@ def rebuild_observation(model: CompiledModel, like: Observation) -> Observation:
 
 def _describe_columns(model: CompiledModel, stretches: Sequence[FilteredSegment]) -> dict[str, Any]:
     """Returns what an observation has of its robot."""
-    return {
-        "robot": model.spec.robot,
-        "joints": model.spec.joints,
-        "names": tuple(base.name for base in model.spec.base),
-        "units": tuple(base.unit for base in model.spec.base),
-        "regressor": ModelRegressor(model, stretches),
-    }
+    spec, regressor = model.spec, ModelRegressor(model, stretches)
+    names, units = (tuple(getattr(b, of) for b in spec.base) for of in ("name", "unit"))
+    columns = {"names": names, "units": units, "regressor": regressor}
+    return {"robot": spec.robot, "joints": spec.joints, **columns}
 
 
 def assemble_observation(
@@ -313,13 +300,11 @@ def assemble_observation(
 
 def _filter_motion(part: FilteredSegment) -> np.ndarray:
     """Returns (rows, 3, joints) q, qd, qdd over all whole samples."""
-    s = part.segment
-    return np.concatenate(
-        [
-            rows.average_samples(np.stack([s.q[w], s.qd[w], s.qdd[w]], axis=1), s.whole[w])
-            for rows, w, _ in part.iterate_parts()
-        ]
-    )
+    s, means = part.segment, []
+    for rows, w, _ in part.iterate_parts():
+        motion = np.stack([s.q[w], s.qd[w], s.qdd[w]], axis=1)
+        means.append(rows.average_samples(motion, s.whole[w]))
+    return np.concatenate(means)
 
 
 # Why a row does not count, for those who draw it.

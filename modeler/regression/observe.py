@@ -13,19 +13,12 @@ from modeler.core.errors import DataError, LoopError
 from modeler.core.json import select_attributes
 from modeler.numerics.filters import BANDWIDTH, SPREAD
 from modeler.numerics.least_squares import solve_scaled_least_squares
+from modeler.regression import prepare
 from modeler.regression.faults import ALWAYS, Defects, find_column
 from modeler.regression.log import Log
 from modeler.regression.motion import Processing, Segment, build_segment
 from modeler.regression.motion_noise import Bands, ChannelNoise, MotionNoise
 from modeler.regression.observation import Observation, assemble_observation, build_observation
-from modeler.regression.prepare import (
-    LogRepair,
-    PreparedLogs,
-    check_logs,
-    close_segment,
-    prepare_logs,
-    round_to_two_digits,
-)
 from modeler.regression.report import DataReport
 from modeler.regression.segments import (
     clear_resting_speeds,
@@ -52,10 +45,10 @@ def choose_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing)
         logs: read with it.
         asked: processing of them.
     """
-    check_logs(model.spec, logs, asked)
+    prepare.check_logs(model.spec, logs, asked)
     if asked.repairs is not None or asked.keep_damaged:
         return asked
-    repair = LogRepair(logs, model.spec)
+    repair = prepare.LogRepair(logs, model.spec)
     open_ = [
         (log, tried)
         for run, log in enumerate(logs)
@@ -66,7 +59,9 @@ def choose_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing)
         return chosen
     try:
         every = dict.fromkeys((f"{log.name}: {key}" for log, keys in open_ for key in keys), 0.0)
-        whole = prepare_logs(model.spec, logs, dataclasses.replace(asked, repairs=every), repair)
+        whole = prepare.prepare_logs(
+            model.spec, logs, dataclasses.replace(asked, repairs=every), repair
+        )
         cutoffs = whole.processing.position_cutoff, whole.processing.parallel_cutoff
         base = _fit_blocks(model, logs, chosen, repair, cutoffs)
     except (DataError, LoopError):
@@ -76,16 +71,14 @@ def choose_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing)
         is_new = False
         for log, keys in tuple(open_):
             names = [f"{log.name}: {key}" for key in keys]
-            tried = dataclasses.replace(
-                chosen, repairs={**(chosen.repairs or {}), **dict.fromkeys(names, 0.0)}
-            )
+            known = dict(chosen.repairs or {})
+            tried = dataclasses.replace(chosen, repairs=known | dict.fromkeys(names, 0.0))
             try:
                 mended = _fit_blocks(model, logs, tried, repair, cutoffs)
                 score = _compute_score(mended, base)
             except (DataError, LoopError):
                 continue
-            scores = {**(chosen.repairs or {}), **dict.fromkeys(names, score)}
-            chosen = dataclasses.replace(chosen, repairs=scores)
+            chosen = dataclasses.replace(chosen, repairs=known | dict.fromkeys(names, score))
             if score < THRESHOLDS.max_repair_ratio:
                 base, is_new = mended, True
                 open_.remove((log, keys))
@@ -120,10 +113,10 @@ def _fit_blocks(
     model: CompiledModel,
     logs: Sequence[Log],
     processing: Processing,
-    repair: LogRepair,
+    repair: prepare.LogRepair,
     cutoffs: tuple[float, float],
 ) -> BlockFit:
-    prepared = prepare_logs(model.spec, logs, processing, repair).set_cutoffs(*cutoffs)
+    prepared = prepare.prepare_logs(model.spec, logs, processing, repair).set_cutoffs(*cutoffs)
     rows = build_observation(model, logs, prepared)
     return BlockFit(rows, compute_left_out_residual(rows))
 
@@ -150,10 +143,8 @@ def compute_left_out_residual(rows: Observation) -> np.ndarray:
     }
     least = {j: 1e-9 * sigma[j] for j in driven}
     for _ in range(THRESHOLDS.repair_reweightings):
-        sums = {
-            key: (A.T @ A / sigma[key[0]] ** 2, A.T @ t / sigma[key[0]] ** 2)
-            for key, (A, t, _) in parts.items()
-        }
+        every = [(key, A, t, sigma[key[0]] ** 2) for key, (A, t, _) in parts.items()]
+        sums = {key: (A.T @ A / square, A.T @ t / square) for key, A, t, square in every}
         for b in range(THRESHOLDS.repair_blocks):
             some = [both for (_, other), both in sums.items() if other != b]
             if not some:
@@ -205,11 +196,13 @@ def observe(
         LoopError: hardly a sample closes the loops.
     """
     asked = choose_repairs(model, logs, processing or Processing())
-    prepared = prepare_logs(model.spec, logs, asked)
+    prepared = prepare.prepare_logs(model.spec, logs, asked)
     return build_observation(model, logs, limit_cutoffs(model, prepared, asked))
 
 
-def limit_cutoffs(model: CompiledModel, prepared: PreparedLogs, asked: Processing) -> PreparedLogs:
+def limit_cutoffs(
+    model: CompiledModel, prepared: prepare.PreparedLogs, asked: Processing
+) -> prepare.PreparedLogs:
     """Returns the logs with both cut-offs where the torques answer to the motion.
 
     Parallel filter: where the noise of the positions, as torque, meets the noise of the torques.
@@ -238,10 +231,10 @@ def limit_cutoffs(model: CompiledModel, prepared: PreparedLogs, asked: Processin
     chatter_free = search.find_chatter_free(crossover.cutoff, is_fixed)
     if chatter_free.position < position:
         crossover = find_noise_crossover(search, chatter_free.position)
-    parallel = round_to_two_digits(min(crossover.cutoff, chatter_free.parallel))
+    parallel = prepare.round_to_two_digits(min(crossover.cutoff, chatter_free.parallel))
     if not is_fixed:
         lowered = min(noise.cutoff, chatter_free.position)
-        position = round_to_two_digits(max(lowered, 2.0 * parallel))
+        position = prepare.round_to_two_digits(max(lowered, 2.0 * parallel))
     prepared = prepared.set_cutoffs(position, parallel)
     said = _describe_choice(prepared, wide.parallel_cutoff, is_fixed, crossover, chatter_free)
     by = crossover.joint if chatter_free.joint is None else chatter_free.joint
@@ -280,18 +273,16 @@ def widen_search(search: "CutoffSearch", is_fixed: bool) -> "CutoffSearch":
     position = min(position, THRESHOLDS.max_cutoff_share / slowest)
     parallel = prepared.processing.parallel_cutoff
     fit = search.fit(position, parallel)
-    if (
-        fit is None
-        or beta is None
-        or compute_coherence(fit.rows, fit.rows.predict(beta)) < THRESHOLDS.min_coherence
-    ):
+    if fit is None or beta is None:
         return search
-    wider = prepared.set_cutoffs(round_to_two_digits(position), parallel)
+    if compute_coherence(fit.rows, fit.rows.predict(beta)) < THRESHOLDS.min_coherence:
+        return search
+    wider = prepared.set_cutoffs(prepare.round_to_two_digits(position), parallel)
     return CutoffSearch(search.model, dataclasses.replace(wider, noise=later))
 
 
 def _describe_choice(
-    prepared: PreparedLogs,
+    prepared: prepare.PreparedLogs,
     widest: float,
     is_fixed: bool,
     crossover: "NoiseCrossover",
@@ -330,7 +321,7 @@ class CutoffSearch(ShortRepr):
     """
 
     model: CompiledModel
-    prepared: PreparedLogs
+    prepared: prepare.PreparedLogs
 
     @cached_property
     def narrowest_fit(self) -> tuple[float, np.ndarray | None]:
@@ -357,7 +348,7 @@ class CutoffSearch(ShortRepr):
             every = [build_segment(piece, chosen) for piece in pieces]
             share = THRESHOLDS.search_samples / sum(len(piece.time) for piece in pieces)
             parts = [
-                close_segment(self.model, _cut_segment(segment, place))[0]
+                prepare.close_segment(self.model, _cut_segment(segment, place))[0]
                 for segment in every
                 if segment is not None
                 for place in _spread_windows(segment.samples, share)
@@ -485,11 +476,8 @@ class WeightedFit(ShortRepr):
         least = {j: THRESHOLDS.min_residual_share * sigma[j] for j in sigma}
         beta = np.zeros(len(rows.names))
         for _ in range(THRESHOLDS.weight_iterations if W else 0):
-            beta = solve_scaled_least_squares(
-                np.concatenate([W[j] / sigma[j] for j in W]),
-                np.concatenate([y[j] / sigma[j] for j in W]),
-                THRESHOLDS.min_singular_share,
-            )
+            matrix, right = (np.concatenate([x[j] / sigma[j] for j in W]) for x in (W, y))
+            beta = solve_scaled_least_squares(matrix, right, THRESHOLDS.min_singular_share)
             free = 1.0 - min(0.9, len(beta) / sum(map(len, y.values())))
             squares = {j: np.mean((y[j] - W[j] @ beta) ** 2) / free for j in W}
             sigma = {j: max(float(np.sqrt(squares[j])), least[j]) for j in W}
@@ -627,11 +615,8 @@ def find_noise_crossover(search: CutoffSearch, position: float) -> NoiseCrossove
         search: at the logs.
         position: highest cut-off of the position filter, Hz.
     """
-    noise, highest, (least, _) = (
-        search.prepared.noise,
-        search.prepared.processing.parallel_cutoff,
-        search.narrowest_fit,
-    )
+    noise, highest = search.prepared.noise, search.prepared.processing.parallel_cutoff
+    least, _ = search.narrowest_fit
     power = 2 * noise.order
     at, value = least, min(noise.cutoff, position)
     torques = dict[int, tuple[float, float]]()

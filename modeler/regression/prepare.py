@@ -14,6 +14,7 @@ from modeler.logs import Positions, is_derivative
 from modeler.numerics.least_squares import compute_weighted_median
 from modeler.numerics.noise import COARSE
 from modeler.numerics.spectra import MotionSpectrum, compute_motion_spectrum, estimate_coherence
+from modeler.regression import motion_noise
 from modeler.regression.consistency import (
     DerivativeCheck,
     check_derivatives,
@@ -36,14 +37,6 @@ from modeler.regression.motion import (
     Segment,
     build_segment,
     compute_edge,
-)
-from modeler.regression.motion_noise import (
-    Bands,
-    MotionNoise,
-    Ringing,
-    estimate_motion_bands,
-    estimate_motion_noise,
-    find_ringing,
 )
 from modeler.regression.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel
@@ -90,9 +83,9 @@ class PreparedLogs(ShortRepr):
     processing: ChosenProcessing
     choices: tuple[str, ...]
     logs: tuple[PreparedLog, ...]
-    noise: MotionNoise
+    noise: motion_noise.MotionNoise
     band: float
-    lowered: Bands | None = None
+    lowered: motion_noise.Bands | None = None
 
     @property
     def pieces(self) -> tuple[RawSegment, ...]:
@@ -209,10 +202,10 @@ class CutLogs(ShortRepr):
         return estimate_joint_bands(self.pieces, self.spectra)
 
     @cached_property
-    def noise(self) -> MotionNoise:
+    def noise(self) -> motion_noise.MotionNoise:
         """Returns the noise of the positions."""
         pieces = [drop_speeds(piece) for piece in self.pieces]
-        return estimate_motion_noise(self.spec.joints, pieces, self.bands)
+        return motion_noise.estimate_motion_noise(self.spec.joints, pieces, self.bands)
 
 
 def prepare_logs(
@@ -261,7 +254,7 @@ def prepare_logs(
     has_logged_speeds = all(piece.qd is not None for piece in pieces)
     noise = positions
     if has_logged_speeds:
-        noise = estimate_motion_noise(spec.joints, pieces, seen.bands)
+        noise = motion_noise.estimate_motion_noise(spec.joints, pieces, seen.bands)
     chosen, choices = choose_cutoffs(processing, pieces, noise)
     band = compute_visible_band(noise.band, pieces)
     return PreparedLogs(chosen, choices, tuple(prepared), noise, band)
@@ -286,15 +279,10 @@ def _choose_derivatives(
     if _has_speeds(log, processing):
         check = check_derivatives(log, pieces, processing.parallel_cutoff, refuse=not keep)
     auto = processing.derivatives == "auto" and not keep
-    wrong = (
-        [
-            name
-            for name, q, qd in zip(log.joints, log.q.T, log.qd.T, strict=True)
-            if not is_derivative(q, qd, log.time)
-        ]
-        if auto and check is not None and log.qd is not None
-        else []
-    )
+    wrong = []
+    if auto and check is not None and log.qd is not None:
+        every = zip(log.joints, log.q.T, log.qd.T, strict=True)
+        wrong = [name for name, q, qd in every if not is_derivative(q, qd, log.time)]
     late = check is not None and check.is_harmful and auto
     if check is not None and not noisy and not late and not wrong:
         source = "qd and qdd as logged" if log.qdd is not None else "qd as logged, qdd from it"
@@ -317,10 +305,8 @@ def exclude_contradicted(
     Where accelerations come from the logged velocities, the filter carries a wrong velocity as far
     as its start-up reaches: like a bridge, it takes its surroundings with it.
     """
-    return tuple(
-        dataclasses.replace(piece, contradicted=bad)
-        for piece, bad in zip(pieces, check.bad, strict=True)
-    )
+    pairs = zip(pieces, check.bad, strict=True)
+    return tuple(dataclasses.replace(piece, contradicted=bad) for piece, bad in pairs)
 
 
 def check_logs(spec: ModuleSpec, logs: Sequence[Log], processing: Processing) -> None:
@@ -422,7 +408,7 @@ def estimate_joint_bands(
     """
     lengths = np.array([len(piece.time) * piece.step for piece in pieces])
     pairs = zip(pieces, spectra, strict=True)
-    piece_bands = np.stack([estimate_motion_bands(*pair) for pair in pairs])
+    piece_bands = np.stack([motion_noise.estimate_motion_bands(*pair) for pair in pairs])
     bands = np.full(piece_bands.shape[1], np.nan)
     for j, joint_values in enumerate(piece_bands.T):
         moved = np.isfinite(joint_values)
@@ -431,7 +417,7 @@ def estimate_joint_bands(
     return bands
 
 
-def estimate_position_noise(seen: Positions | None) -> MotionNoise | None:
+def estimate_position_noise(seen: Positions | None) -> motion_noise.MotionNoise | None:
     """Returns the noise of the positions of a log whose robot is not known; None without motion.
 
     Args:
@@ -453,7 +439,7 @@ def estimate_position_noise(seen: Positions | None) -> MotionNoise | None:
     if not pieces:
         return None
     bands = estimate_joint_bands(pieces, compute_spectra(pieces))
-    noise = estimate_motion_noise(joints, pieces, bands)
+    noise = motion_noise.estimate_motion_noise(joints, pieces, bands)
     return noise.take_last_floors(lambda joint: joint.spectral_slope > THRESHOLDS.max_noise_slope)
 
 
@@ -475,7 +461,7 @@ def compute_spectra(pieces: Sequence[RawSegment]) -> list[MotionSpectrum]:
 
 def find_ringing_joints(
     spectra: Sequence[MotionSpectrum], steps: Sequence[float], pieces: Sequence[RawSegment]
-) -> list[Ringing]:
+) -> list[motion_noise.Ringing]:
     """Returns joints that ring in the longest of some pieces, by more than their encoders' steps.
 
     A joint that passes count after count shows lines too, but none that are as large as a few
@@ -493,20 +479,19 @@ def find_ringing_joints(
     speed = longest.power_above_noise * longest.frequency[:, None] ** 2
     rings = []
     for j, energy in enumerate(speed.T):
-        ring, first = find_ringing(longest.frequency, energy, j)
+        ring, first = motion_noise.find_ringing(longest.frequency, energy, j)
         size = float(np.sqrt(longest.power_above_noise[first:, j].sum()))
         if ring is None or size <= COARSE * steps[j]:
             continue
-        if (
-            estimate_coherence(piece.q[:, j], piece.tau[:, j], ring.frequency * piece.step)
-            > THRESHOLDS.min_ringing_coherence
-        ):
+        both = piece.q[:, j], piece.tau[:, j]
+        coherence = estimate_coherence(*both, ring.frequency * piece.step)
+        if coherence > THRESHOLDS.min_ringing_coherence:
             rings.append(ring)
     return rings
 
 
 def choose_cutoffs(
-    processing: Processing, pieces: Sequence[RawSegment], noise: MotionNoise
+    processing: Processing, pieces: Sequence[RawSegment], noise: motion_noise.MotionNoise
 ) -> tuple[ChosenProcessing, tuple[str, ...]]:
     """Returns the processing with the widest cut-offs that the motion needs, and their reasons.
 
@@ -523,9 +508,8 @@ def choose_cutoffs(
     fastest = max(noise.joints, key=lambda joint: joint.band_hz)
     band = fastest.band_hz
     slowest = 1.0 / max(piece.step for piece in pieces)
-    shown = (
-        f"{band:.3g} Hz" if band else "of less than the pieces of motion are long enough to show"
-    )
+    unseen = "of less than the pieces of motion are long enough to show"
+    shown = f"{band:.3g} Hz" if band else unseen
     said = [f"motion band {shown} (99 % of the velocity's energy), sampled at {noise.rate:.4g} Hz"]
     rest = [joint.joint for joint in noise.joints if not joint.is_moving]
     if rest and len(rest) < len(noise.joints):
@@ -555,13 +539,15 @@ def choose_cutoffs(
         )
     names = ("position_cutoff", "parallel_cutoff")
     automatic = [name for name in names if getattr(processing, name) is None]
+    cutoffs, floors = dict(zip(names, (position, parallel), strict=True)), processing.speed_floors
+    chosen = tuple(dict.fromkeys((*processing.automatic_cutoffs, *automatic)))
     choices = {
-        "position_cutoff": position,
-        "parallel_cutoff": parallel,
-        "speed_floors": processing.speed_floors or {},
-        "automatic_cutoffs": tuple(dict.fromkeys((*processing.automatic_cutoffs, *automatic))),
+        **vars(processing),
+        **cutoffs,
+        "speed_floors": floors or {},
+        "automatic_cutoffs": chosen,
     }
-    return ChosenProcessing(**{**vars(processing), **choices}), tuple(said)
+    return ChosenProcessing(**choices), tuple(said)
 
 
 def round_to_two_digits(value: float) -> float:

@@ -141,13 +141,9 @@ def build_log(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
 def find_needed_columns(table: LogTable, spec: ModuleSpec) -> list[str]:
     """Returns the file's names of the columns that a fit of these joints reads."""
     used = _collect_names(spec) | {"time", "segment"}
-    return [
-        table.find_file_column(name)
-        for name in table.names
-        if (name in used or name.startswith("temperature"))
-        and table.is_numeric(name)
-        and not (name == "time" and table.rated)
-    ]
+    used -= {"time"} if table.rated else set()
+    names = [name for name in table.names if name in used or name.startswith("temperature")]
+    return [table.find_file_column(name) for name in names if table.is_numeric(name)]
 
 
 def _read_time(table: LogTable) -> np.ndarray:
@@ -239,13 +235,9 @@ def _compute_duty_torque(
 
 def _find_duty_joints(table: LogTable, spec: ModuleSpec) -> list[JointSpec]:
     """Returns joints whose torque comes of a duty."""
-    return [
-        joint
-        for joint in spec.joints
-        if joint.drive
-        and f"duty{joint.name}" in table
-        and not {f"tau{joint.name}", f"current{joint.name}"} & {*table.names}
-    ]
+    names = {*table.names}
+    joints = [j for j in spec.joints if j.drive and f"duty{j.name}" in table]
+    return [j for j in joints if not {f"tau{j.name}", f"current{j.name}"} & names]
 
 
 def _check_duties(table: LogTable, spec: ModuleSpec) -> list[str]:
@@ -266,14 +258,11 @@ def _check_induced_voltage(table: LogTable, spec: ModuleSpec) -> list[str]:
     joints = _find_duty_joints(table, spec)
     names = [joint.name for joint in joints if joint.drive and not joint.drive.k_e]
     what = f"joint{'s' * (len(names) > 1)} {', '.join(names)}"
-    return (
-        [
-            f"{what}: without k_e in [drives], the back-EMF is part of the viscous friction "
-            "(from duties alone both cannot be distinguished)"
-        ]
-        if names
-        else []
+    line = (
+        f"{what}: without k_e in [drives], the back-EMF is part of the viscous friction (from "
+        "duties alone both cannot be distinguished)"
     )
+    return [line] if names else []
 
 
 def _read_optional(
@@ -379,11 +368,8 @@ class ChannelRanges:
 
     def merged_with(self, other: "ChannelRanges") -> "ChannelRanges":
         """Returns the ranges of the rows of both."""
-        return ChannelRanges(
-            self.values + other.values,
-            np.minimum(self.low, other.low),
-            np.maximum(self.high, other.high),
-        )
+        low, high = np.minimum(self.low, other.low), np.maximum(self.high, other.high)
+        return ChannelRanges(self.values + other.values, low, high)
 
     def collect_warnings(self, step: float, spec: ModuleSpec) -> list[str]:
         """Returns sentences on units and dead channels; usable, so no error."""

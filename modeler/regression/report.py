@@ -88,21 +88,15 @@ def describe_damages(
         defects_by_channel: in all rows.
         repairs: by column and kind, the held-out error mended over that as logged.
     """
-    descriptions = [
-        _describe_repeats(log, rows, channel)
-        for channel in defects_by_channel.get("rows", ())
-        if channel
-    ]
+    repeats = [channel for channel in defects_by_channel.get("rows", ()) if channel]
+    descriptions = [_describe_repeats(log, rows, channel) for channel in repeats]
     for name, by_joint in defects_by_channel.items():
         if name == "rows":
             continue
         for j, channel in enumerate(by_joint):
             joint, column = spec.joints[j], find_column(log, spec, name, j)
-            unit = (
-                joint.effort_unit
-                if name == "tau"
-                else f"{joint.unit}{('/s' if name == 'qd' else '/s^2' if name == 'qdd' else '')}"
-            )
+            unit = joint.unit + {"qd": "/s", "qdd": "/s^2"}.get(name, "")
+            unit = joint.effort_unit if name == "tau" else unit
             for kind in dict.fromkeys(one.kind for one in channel):
                 same = [one for one in channel if one.kind == kind]
                 size = max((one.size for one in same), key=abs)
@@ -115,13 +109,9 @@ def describe_damages(
                     rows=f"{size:.0f} rows: sampled at {rate / max(size, 1.0):.3g} Hz, not "
                     f"{rate:.4g} Hz",
                 )
-                done, score = _DONE.get(kind, "not used"), repairs.get(f"{column} {kind}", np.nan)
-                if done == "not used":
-                    done = (
-                        f"{samples} sample{'s' * (samples > 1)} "
-                        f"({format_percent(samples / rows)} of "
-                    )
-                    done += "the rows) not used"
+                share = f"({format_percent(samples / rows)} of the rows)"
+                unused = f"{samples} sample{'s' * (samples > 1)} {share} not used"
+                done, score = _DONE.get(kind, unused), repairs.get(f"{column} {kind}", np.nan)
                 is_mended = kind in ALWAYS or score < THRESHOLDS.max_repair_ratio
                 if not is_mended:
                     done, samples = "used as logged", 0
@@ -343,19 +333,14 @@ class JointReport(ShortRepr):
         """Returns the rows of the joint as text."""
         if self.used == 0:
             return f"joint {self.name}: {self._explain_empty()}"
+        rows = f"joint {self.name}: {self.used} rows"
         if self.speed_floor is None:
-            return f"joint {self.name}: {self.used} rows"
+            return rows
         if self.speed_floor == float("inf"):
-            return (
-                f"joint {self.name}: {self.used} rows; it never moves: its friction is not "
-                "identifiable"
-            )
-        return (
-            f"joint {self.name}: {self.used} rows; {format_percent(self.slow)} of the samples "
-            "masked "
-            f"below {self.speed_floor:.3g} {self.unit}, where the sign of the speed is "
-            "doubtful"
-        )
+            return f"{rows}; it never moves: its friction is not identifiable"
+        masked = f"{format_percent(self.slow)} of the samples masked"
+        floor = f"below {self.speed_floor:.3g} {self.unit}"
+        return f"{rows}; {masked} {floor}, where the sign of the speed is doubtful"
 
     def _explain_empty(self) -> str:
         """Returns the cause that most samples share, when no row is left."""
@@ -403,12 +388,8 @@ class DataReport(Result):
 
     def collect_notes(self) -> list[str]:
         """Returns what looks like a defect of a log and is used as logged, one sentence each."""
-        return [
-            f"note: {log.name}: {damage.line}"
-            for log in self.logs
-            for damage in log.damages
-            if not damage.is_mended
-        ]
+        every = [(log.name, damage) for log in self.logs for damage in log.damages]
+        return [f"note: {name}: {one.line}" for name, one in every if not one.is_mended]
 
     def format_lines(self) -> list[str]:
         """Returns lines of text for people."""
@@ -487,33 +468,20 @@ def count_rows(
     clipped = [piece.clipped[rows].sum(axis=0) for piece, rows in pairs]
     bad = () if check is None else check.bad
     widths = cuts.widths[chunk.is_inside(cuts.gaps)]
-    sums: dict[str, Any] = {
-        "chunks": 1,
-        "rows": chunk.rows,
-        "gaps": len(widths),
-        "pieces": len(begun),
-        "resampled": sum(piece.resampled for piece in begun),
-        "short": chunk.is_inside(cuts.short).sum() + sum(int(rows.sum()) for rows in inner_masks),
-        "missing": Counter(cut_rows(chunk.log, chunk.inner_rows).missing),
-        "clipped": sum(clipped, none),
-        "contradicted": sum(
-            int(flags[rows].sum()) for flags, rows in zip(bad, inner_masks, strict=False)
-        ),
-        "samples": 0,
-        "full": 0,
-        **{name: none for name in ("used", "valid", "usable", *CAUSES)},
-    }
+    wrong = sum(int(flags[rows].sum()) for flags, rows in zip(bad, inner_masks, strict=False))
+    short = chunk.is_inside(cuts.short).sum() + sum(int(rows.sum()) for rows in inner_masks)
+    missing = cut_rows(chunk.log, chunk.inner_rows).missing
+    resampled = sum(piece.resampled for piece in begun)
+    sums: dict[str, Any] = {"chunks": 1, "rows": chunk.rows, "gaps": len(widths)}
+    sums |= {"pieces": len(begun), "resampled": resampled, "short": short, "samples": 0, "full": 0}
+    sums |= {"missing": Counter(missing), "clipped": sum(clipped, none), "contradicted": wrong}
+    sums |= dict.fromkeys(("used", "valid", "usable", *CAUSES), none)
     for part in stretches:
         s, inside = part.segment, np.flatnonzero(chunk.is_inside(part.segment.time))
         rows = slice(inside[0], inside[-1] + 1) if inside.size else slice(0, 0)
         valid, full = s.valid[rows].sum(axis=0), rows.stop - rows.start
-        counts = {
-            "valid": valid,
-            "usable": part.usable[rows].sum(axis=0),
-            "full": full,
-            "used": part.used.sum(axis=0),
-            "samples": len(part.rows.centres),
-        }
+        counts = {"valid": valid, "full": full, "usable": part.usable[rows].sum(axis=0)}
+        counts |= {"used": part.used.sum(axis=0), "samples": len(part.rows.centres)}
         if (valid < full).any():
             cause = s.cause[rows]
             counts |= {name: (cause == k).sum(axis=0) for k, name in enumerate(CAUSES)}
@@ -578,11 +546,9 @@ class LogFacts:
 
     def find_first(self, kind: str) -> dict[int, float]:
         """Returns joints whose position has a defect of a kind -> time of the first, s."""
-        return {
-            j: same_kind[0].time
-            for j, every in enumerate(self.defects.get("q", []))
-            if (same_kind := [one for one in every if one.kind == kind])
-        }
+        joints = enumerate(self.defects.get("q", []))
+        first = {j: next((x.time for x in every if x.kind == kind), None) for j, every in joints}
+        return {j: time for j, time in first.items() if time is not None}
 
 
 def _merge_contradictions(
@@ -668,16 +634,9 @@ def build_joint_reports(
     counted = ("full", "used", "valid", "usable", *CAUSES)
     reports, sums = [], {name: sum(values.sums[name] for values in tallies) for name in counted}
     for j, joint in enumerate(joints):
-        values = [floors[part.name] for part in parts if j in part.joints]
-        reports.append(
-            JointReport(
-                name=joint.name,
-                used=int(sums["used"][j]),
-                slow=float(1.0 - sums["usable"][j] / max(1, sums["valid"][j])),
-                speed_floor=max(values) if values else None,
-                unit=f"{joint.unit}/s",
-                samples=int(sums["full"]),
-                lost={cause: int(sums[cause][j]) for cause in CAUSES if sums[cause][j]},
-            )
-        )
+        floor = max((floors[part.name] for part in parts if j in part.joints), default=None)
+        slow = float(1.0 - sums["usable"][j] / max(1, sums["valid"][j]))
+        lost = {cause: int(sums[cause][j]) for cause in CAUSES if sums[cause][j]}
+        numbers = int(sums["used"][j]), slow, floor, f"{joint.unit}/s", int(sums["full"]), lost
+        reports.append(JointReport(joint.name, *numbers))
     return tuple(reports)

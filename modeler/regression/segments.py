@@ -11,13 +11,7 @@ from scipy.sparse import csr_array
 
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, LoopError
-from modeler.numerics.filters import (
-    LEAST_WEIGHT,
-    RowFilter,
-    apply_biquad,
-    build_row_filter,
-    choose_row_spacing,
-)
+from modeler.numerics import filters
 from modeler.regression.motion import ChosenProcessing, Segment, dilate_flags
 from modeler.regression.motion_noise import MotionNoise
 from modeler.regression.thresholds import THRESHOLDS
@@ -48,6 +42,9 @@ class FrictionShaft:
         return qd @ np.asarray(self.coefficients)
 
 
+Shafts = Sequence[FrictionShaft]
+
+
 def find_shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
     """Returns the shafts whose columns leap at standstill, found by creeping both ways past it.
 
@@ -63,7 +60,7 @@ def find_shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
     forwards = model.base_regressor(state, creep, still, signals)
     backwards = model.base_regressor(state, -creep, still, signals)
     leap = 0.5 * (forwards - backwards)  # (moved, row, column)
-    shaft_by_coefficients: dict[tuple[float, ...], FrictionShaft] = {}
+    shafts: dict[tuple[float, ...], FrictionShaft] = {}
     scale = np.max(np.abs(leap), axis=(0, 1))
     for column in np.flatnonzero(scale > 1e-3):
         share = leap[:, :, column] / scale[column]
@@ -75,15 +72,11 @@ def find_shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
         else:  # E^T sign(E qd): the leap on the rows is the shaft's coefficient
             coefficients[moved] = share[moved[0], moved]
         key = tuple(round(float(c), 9) for c in coefficients)
-        acted = (
-            rows
-            if key not in shaft_by_coefficients
-            else tuple(sorted({*rows, *shaft_by_coefficients[key].joints}))
-        )
+        acted = sorted({*rows, *(shafts[key].joints if key in shafts else ())})
         names = "+".join(model.spec.joints[j].name for j in moved)
         unit = model.spec.joints[moved[0]].unit
-        shaft_by_coefficients[key] = FrictionShaft(names, key, acted, unit)
-    return tuple(shaft_by_coefficients.values())
+        shafts[key] = FrictionShaft(names, key, tuple(acted), unit)
+    return tuple(shafts.values())
 
 
 def _choose_posture(model: CompiledModel) -> np.ndarray:
@@ -118,10 +111,7 @@ def find_all_shafts(model: CompiledModel) -> tuple[FrictionShaft, ...]:
 
 
 def compute_speed_floors(
-    processing: ChosenProcessing,
-    parts: Sequence[FrictionShaft],
-    segments: Sequence[Segment],
-    noise: MotionNoise,
+    processing: ChosenProcessing, parts: Shafts, segments: Sequence[Segment], noise: MotionNoise
 ) -> dict[str, float]:
     """Returns the speed of each shaft below which its rows are masked; infinite at standstill.
 
@@ -132,15 +122,13 @@ def compute_speed_floors(
     floors, low = {}, processing.low_speed
     for part, top in zip(parts, compute_top_speeds(parts, segments, noise), strict=True):
         step = noise.compute_speed_step(part.coefficients) if low else 0.0
-        floor = (
-            max(low * top, min(step, THRESHOLDS.max_reversal_share * top)) if top else float("inf")
-        )
-        floors[part.name] = processing.speed_floors.get(part.name, floor)
+        floor = max(low * top, min(step, THRESHOLDS.max_reversal_share * top))
+        floors[part.name] = processing.speed_floors.get(part.name, floor if top else float("inf"))
     return floors
 
 
 def compute_top_speeds(
-    parts: Sequence[FrictionShaft],
+    parts: Shafts,
     segments: Sequence[Segment],
     noise: MotionNoise | None = None,
     least: Mapping[str, float] = IDLE_TRAVEL,
@@ -160,10 +148,7 @@ def compute_top_speeds(
 
 
 def compute_wide_floors(
-    processing: ChosenProcessing,
-    parts: Sequence[FrictionShaft],
-    segments: Sequence[Segment],
-    noise: MotionNoise,
+    processing: ChosenProcessing, parts: Shafts, segments: Sequence[Segment], noise: MotionNoise
 ) -> dict[str, float]:
     """Returns speed of each shaft below which it is near a reversal.
 
@@ -174,18 +159,13 @@ def compute_wide_floors(
     for part, top in zip(parts, compute_top_speeds(parts, segments, noise), strict=True):
         doubtful = noise.compute_speed_noise(part.coefficients, cutoff)
         doubtful *= THRESHOLDS.reversal_speed_sigmas
-        floors[part.name] = min(
-            max(THRESHOLDS.reversal_speed_share * top, doubtful),
-            THRESHOLDS.max_reversal_share * top,
-        ) or float("inf")
+        floor = max(THRESHOLDS.reversal_speed_share * top, doubtful)
+        floors[part.name] = min(floor, THRESHOLDS.max_reversal_share * top) or float("inf")
     return floors
 
 
 def find_moving_samples(
-    segment: Segment,
-    parts: Sequence[FrictionShaft],
-    floors: Mapping[str, float],
-    margin: float = 0.0,
+    segment: Segment, parts: Shafts, floors: Mapping[str, float], margin: float = 0.0
 ) -> np.ndarray:
     """Returns (n, joints) False where a shaft that acts on the joint is slower than its floor.
 
@@ -206,7 +186,7 @@ def find_moving_samples(
 
 
 def clear_resting_speeds(
-    segments: Sequence[Segment], parts: Sequence[FrictionShaft], still: Sequence[str] = ()
+    segments: Sequence[Segment], parts: Shafts, still: Sequence[str] = ()
 ) -> tuple[Segment, ...]:
     """Returns the segments without speeds of joints that rest all along a log: noise has no sign.
 
@@ -247,7 +227,9 @@ def compute_bristle_state(q: np.ndarray, distance: float) -> np.ndarray:
     step = np.diff(q)
     if not step.any():
         return np.zeros(len(q))
-    direction = _carry_direction(np.sign(step))
+    known = np.flatnonzero(step)
+    place = np.searchsorted(known, np.arange(len(step)), side="right") - 1
+    direction = np.sign(step)[known[np.maximum(place, 0)]]  # the last before a rest, or the first
     begins = np.concatenate([[0], np.flatnonzero(np.diff(direction)) + 1])
     lengths = np.diff(np.append(begins, len(step)))
     travel = np.abs(q[1:] - np.repeat(q[begins], lengths))
@@ -292,14 +274,7 @@ def apply_lag(x: np.ndarray, step: float, tau: float) -> np.ndarray:
     decay = math.exp(-step / tau)
     driven = np.append(0.0, (1.0 - decay) * (0.5 * (x[1:] + x[:-1]) - x[0]))
     forward, back = np.array([1.0, 0, 0]), np.array([1.0, -decay, 0])
-    return np.asarray(x[0] + apply_biquad(driven, forward, back))
-
-
-def _carry_direction(direction: np.ndarray) -> np.ndarray:
-    """Returns zeros replaced by the last direction before them, at the start by the first after."""
-    known = np.flatnonzero(direction)
-    place = np.searchsorted(known, np.arange(len(direction)), side="right") - 1
-    return direction[known[np.maximum(place, 0)]]
+    return np.asarray(x[0] + filters.apply_biquad(driven, forward, back))
 
 
 # What effects of a model read besides the motion, over the samples of a segment.
@@ -372,13 +347,13 @@ class FilteredSegment(ShortRepr):
 
     segment: Segment
     usable: np.ndarray
-    rows: RowFilter
+    rows: filters.RowFilter
     used: np.ndarray
 
     def thin_samples(self, every: int, read: np.ndarray | None) -> "FilteredSegment":
         """Returns the same rows by every n-th sample; `read` (samples, m) is what effects read."""
         weights = csr_array(self.rows.weights[:, ::every])
-        rows = RowFilter(weights, self.rows.centres // every)
+        rows = filters.RowFilter(weights, self.rows.centres // every)
         usable = self.usable[::every].copy()
         return FilteredSegment(self.segment.thin_samples(every, read), usable, rows, self.used)
 
@@ -419,7 +394,7 @@ class FilteredSegment(ShortRepr):
         for some in np.array_split(rows, -(-len(rows) * most // THRESHOLDS.filter_block_samples)):
             weights = self.rows.weights[some]
             reached = np.unique(weights.indices)
-            part = RowFilter(csr_array(weights[:, reached]), self.rows.centres[some])
+            part = filters.RowFilter(csr_array(weights[:, reached]), self.rows.centres[some])
             blocks.append(self._compute_means(part, evaluate(reached), reached, self.used[some]))
         return np.concatenate(blocks)
 
@@ -429,7 +404,7 @@ class FilteredSegment(ShortRepr):
 
     def iterate_parts(
         self, samples: int = THRESHOLDS.filter_block_samples
-    ) -> Iterator[tuple[RowFilter, slice, slice]]:
+    ) -> Iterator[tuple[filters.RowFilter, slice, slice]]:
         """Yields filters of a few rows each, the samples they reach, and which rows they are."""
         total, count = len(self.rows.centres), max(1, samples // self.decimation)
         for first in range(0, total, count):
@@ -439,7 +414,7 @@ class FilteredSegment(ShortRepr):
 
     def _compute_means(
         self,
-        part: RowFilter,
+        part: filters.RowFilter,
         values: np.ndarray,
         window: slice | np.ndarray,
         used: np.ndarray,
@@ -457,7 +432,7 @@ class FilteredSegment(ShortRepr):
 
 def filter_segment(
     segment: Segment,
-    shafts: Sequence[FrictionShaft],
+    shafts: Shafts,
     processing: ChosenProcessing,
     centres: np.ndarray | None = None,
 ) -> FilteredSegment:
@@ -472,10 +447,12 @@ def filter_segment(
     cutoff = processing.parallel_cutoff
     usable = segment.valid & find_moving_samples(segment, shafts, processing.speed_floors)
     if centres is None:
-        every = choose_row_spacing(segment.step, cutoff, processing.decimation)
+        every = filters.choose_row_spacing(segment.step, cutoff, processing.decimation)
         centres = choose_row_centres(segment, every)
-    rows = build_row_filter(centres, segment.samples, segment.step, cutoff)
-    return FilteredSegment(segment, usable, rows, rows.compute_usable_share(usable) >= LEAST_WEIGHT)
+    rows = filters.build_row_filter(centres, segment.samples, segment.step, cutoff)
+    return FilteredSegment(
+        segment, usable, rows, rows.compute_usable_share(usable) >= filters.LEAST_WEIGHT
+    )
 
 
 def choose_row_centres(segment: Segment, every: int) -> np.ndarray:

@@ -9,15 +9,9 @@ import numpy as np
 
 from modeler.core.errors import DataError, LoopError
 from modeler.numerics.filters import choose_row_spacing
+from modeler.regression import faults, prepare
 from modeler.regression.chunk import Chunk, compute_margin
 from modeler.regression.consistency import check_derivatives
-from modeler.regression.faults import (
-    ChannelScales,
-    Defect,
-    parse_repairs,
-    repair_log,
-    select_confirmed,
-)
 from modeler.regression.log import (
     FINGER,
     LONG,
@@ -31,13 +25,6 @@ from modeler.regression.log import (
 from modeler.regression.motion import ChosenProcessing, Processing, Segment, build_segment
 from modeler.regression.observation import Observation, build_observation
 from modeler.regression.observe import choose_repairs, limit_cutoffs
-from modeler.regression.prepare import (
-    PreparedLog,
-    check_size,
-    close_segment,
-    exclude_contradicted,
-    prepare_logs,
-)
 from modeler.regression.read import ChannelRanges, Source, cut_rows, join_logs, join_windows
 from modeler.regression.report import (
     DataReport,
@@ -106,7 +93,7 @@ class LogChoices:
     processing: ChosenProcessing
     decimation: int
     logged: bool
-    channel_scales: ChannelScales
+    channel_scales: faults.ChannelScales
     extremes: Extremes
     shafts: tuple[FrictionShaft, ...]
     step: float
@@ -127,7 +114,7 @@ class Survey:
     """
 
     observation: Observation
-    logs: tuple[PreparedLog, ...]
+    logs: tuple[prepare.PreparedLog, ...]
     chosen: tuple[LogChoices, ...]
     windows: int
     rows: int
@@ -173,7 +160,7 @@ def choose_from_windows(
     seen = [log for log in logs if log is not None]
     try:
         processing = choose_repairs(model, seen, processing)
-        prepared = prepare_logs(model.spec, seen, processing)
+        prepared = prepare.prepare_logs(model.spec, seen, processing)
         observation = build_observation(model, seen, limit_cutoffs(model, prepared, processing))
     except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
         where = f"the {sum(len(log_windows) for log_windows in windows)} windows"
@@ -208,14 +195,11 @@ def choose_from_windows(
                 margin_rows=beside,
             )
         )
-    count, rows_seen = (
-        sum(len(log_windows) for log_windows in windows),
-        sum(log.rows for log in seen),
-    )
+    sizes = sum(map(len, windows)), sum(log.rows for log in seen)
     prepared_logs = tuple(
         dataclasses.replace(prepared.logs[at], pieces=()) for at in places
     )  # memory
-    return Survey(observation, prepared_logs, tuple(every), count, rows_seen)
+    return Survey(observation, prepared_logs, tuple(every), *sizes)
 
 
 def _count_windows(sources: Sequence[Source], k: int) -> int:
@@ -290,58 +274,45 @@ def build_chunk_rows(
         DataError: a value that cannot be.
     """
     spec, processing = model.spec, chosen.processing
-    check_size(chunk.log, spec)
-    names = select_confirmed(processing.repairs_of(chosen.name))
-    repairs = parse_repairs(chunk.log, spec, names)
-    mended, defects_by_channel, _ = repair_log(chunk.log, spec, chosen.channel_scales, repairs)
+    prepare.check_size(chunk.log, spec)
+    names = faults.select_confirmed(processing.repairs_of(chosen.name))
+    repairs = faults.parse_repairs(chunk.log, spec, names)
+    mended, damage, _ = faults.repair_log(chunk.log, spec, chosen.channel_scales, repairs)
     log = chunk.log if processing.keep_damaged else mended
     pieces, cuts = split_log(log, chosen.run, chosen.logged, chosen.extremes)
     check = None
     if chosen.logged:
         check = check_derivatives(log, pieces, processing.parallel_cutoff, refuse=False)
         if not processing.keep_contradicted:
-            pieces = exclude_contradicted(pieces, check)
+            pieces = prepare.exclude_contradicted(pieces, check)
     filtered = [build_segment(piece, processing) for piece in pieces]
-    both = [close_segment(model, segment) for segment in filtered if segment is not None]
+    both = [prepare.close_segment(model, segment) for segment in filtered if segment is not None]
     still = [part for part in chosen.shafts if processing.speed_floors[part.name] == float("inf")]
-    names_still = [part.name for part in still]
-    segments = clear_resting_speeds([segment for segment, _ in both], still, names_still)
-    stretches = tuple(
-        filter_segment(s, chosen.shafts, processing, _find_centres(s, chunk, chosen))
-        for s in segments
-    )
+    closed, names_still = [segment for segment, _ in both], [part.name for part in still]
+    segments = clear_resting_speeds(closed, still, names_still)
+    every = [(segment, _find_centres(segment, chunk, chosen)) for segment in segments]
+    stretches = tuple(filter_segment(s, chosen.shafts, processing, at) for s, at in every)
     inner_log = cut_rows(chunk.log, chunk.inner_rows)
-    start, stop = chunk.span
+    (start, stop), inner = chunk.span, dict[str, list[list[faults.Defect]]]()
+    for name, by_joint in damage.items():
+        inner[name] = [[one for one in some if chunk.is_inner(one.start)] for some in by_joint]
+    for some in inner.get("rows", ()):  # as one, of as many rows
+        if some:
+            rows = sum(one.stop - one.start for one in some)
+            some[:] = [dataclasses.replace(some[0], stop=some[0].start + rows)]
+    contradictions = check.contradictions if check else ()
+    open_times = [t for s, open_ in both for t in s.time[open_ & s.whole].tolist()]
     return stretches, LogFacts(
         tally=count_rows(chunk, pieces, cuts, stretches, check),
-        defects={
-            name: [_select_inner(chunk, some, name == "rows") for some in by_joint]
-            for name, by_joint in defects_by_channel.items()
-        },
-        contradictions=tuple(
-            one for one in (check.contradictions if check else ()) if start <= one.time < stop
-        ),
+        defects=inner,
+        contradictions=tuple(x for x in contradictions if start <= x.time < stop),
         ranges=ChannelRanges.compute_from(inner_log),
         block_hashes=compute_block_hashes(inner_log.time, inner_log.q, inner_log.tau),
         clipped=_find_clipped(chunk.log, pieces),
         moving_shafts=_find_moving_shafts(segments, chosen),
-        open_times=tuple(
-            float(t)
-            for segment, open_ in both
-            for t in segment.time[open_ & segment.whole]
-            if start <= t < stop
-        ),
+        open_times=tuple(t for t in open_times if start <= t < stop),
         span=(float(inner_log.time[0]), float(inner_log.time[-1])),
     )
-
-
-def _select_inner(chunk: Chunk, defects: Sequence[Defect], together: bool) -> list[Defect]:
-    """Returns what was found in the chunk's own rows; together: as one, of as many rows."""
-    inner = [one for one in defects if chunk.is_inner(one.start)]
-    if not together or not inner:
-        return inner
-    rows = sum(one.stop - one.start for one in inner)
-    return [dataclasses.replace(inner[0], stop=inner[0].start + rows)]
 
 
 def _find_centres(segment: Segment, chunk: Chunk, chosen: LogChoices) -> np.ndarray:
