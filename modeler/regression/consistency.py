@@ -321,9 +321,8 @@ def check_derivatives(
                 worst = int(np.argmax(np.where(np.concatenate(flags), error, 0.0)))
                 time = np.concatenate([part.time for part in windows])
                 names, samples = (f"{column}{joint}", f"{lower}{joint}"), sum(map(np.sum, masks))
-                numbers = {"largest": float(error[worst]), "time": float(time[worst])}
-                one = Contradiction(*names, samples=int(samples), limit=limit, **numbers)
-                contradictions.append(one)
+                numbers = int(samples), limit, float(error[worst]), float(time[worst])
+                contradictions.append(Contradiction(*names, *numbers))
     return DerivativeCheck(tuple(bad), tuple(contradictions), tuple(late))
 
 
