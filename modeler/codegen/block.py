@@ -193,9 +193,8 @@ class _Writer:
     def is_call(self, index: int) -> bool:
         """Returns True if C calls a function for the node, which stands before the arithmetic."""
         node = self.graph.nodes[index]
-        return node.op in (*_HOISTED, *self.graph.tables) or (
-            node.op == "sign" and node.args[0] in self.widths
-        )
+        has_width = node.op == "sign" and node.args[0] in self.widths
+        return has_width or node.op in (*_HOISTED, *self.graph.tables)
 
     def take_lines(self) -> tuple[str, ...]:
         """Returns the lines written since the last call, and forgets them."""
@@ -205,9 +204,8 @@ class _Writer:
     def format_output(self, value: Expr) -> str:
         """Returns the C text of an output."""
         if value.is_zero:
-            return self._spread_constant(
-                0, format_number(Fraction(0), self.target.constant_target)
-            ).text
+            zero = format_number(Fraction(0), self.target.constant_target)
+            return self._spread_constant(0, zero).text
         self.visit_node(abs(value.ref))
         text = self.texts[abs(value.ref)]
         if value.ref < 0:

@@ -108,7 +108,7 @@ def build_loop_solver(model: SymbolicModel, base: BaseParameters) -> LoopSolver:
     if closure.platform is not None:
         sets[PLATFORM] = closure.platform
     eliminations = {
-        head: eliminate(model, pattern, independent, values) for head, independent in sets.items()
+        head: eliminate(model, pattern, columns, values) for head, columns in sets.items()
     }
     turns = find_shared_sines(
         model.graph, [*closure.drift, *list_base_entries(model, base).values()]
@@ -265,22 +265,15 @@ def build_closed_functions(
         public += [_build_regressors(platform, model, base)[1], _build_dynamics(platform, model)[0]]
         public += _build_postures(platform)
     # Of the opened tree, of u.
-    tree_by_role = {f.role: f for f in layout.build_tree_functions(model, base)}
+    trees = {f.role: f for f in layout.build_tree_functions(model, base)}
     for role in ("base_regressor_nonzeros", "base_parameters"):
-        del tree_by_role[role]
-    arguments, drift = (
-        layout.make_arguments(model.robot.free_joints, model, base),
-        solving.closure.drift,
-    )
+        del trees[role]
+    arguments = layout.make_arguments(model.robot.free_joints, model, base)
+    drift = solving.closure.drift
     opened = arguments.extend("opened", drift=len(drift))
-    tree_by_role["coriolis"] = _build_tree_coriolis(
-        model, layout.make_beta_symbols(model, base), opened
-    )
-    tree_by_role["drift"] = opened.declare("drift", drift)
-    tree = [
-        dataclasses.replace(f, role=f"tree_{role}", internal=True)
-        for role, f in tree_by_role.items()
-    ]
+    trees["coriolis"] = _build_tree_coriolis(model, layout.make_beta_symbols(model, base), opened)
+    trees["drift"] = opened.declare("drift", drift)
+    tree = [dataclasses.replace(f, role=f"tree_{role}", internal=True) for role, f in trees.items()]
     return (*tree, *solving_functions, *public)
 
 
@@ -316,12 +309,8 @@ def _build_coordinate_sets(model: SymbolicModel, base: BaseParameters) -> list[_
         joints = [model.robot.free_joints[k] for k in closure.platform]
         words["joints"] = ", ".join(joint.name for joint in joints)
         platform = layout.make_arguments(joints, model, base).extend("platform", **words)
-        moved = {
-            "q": platform["x"],
-            "qd": platform["xd"],
-            "qdd": platform["xdd"],
-            "tau": platform["f"],
-        }
+        letters = {"q": "x", "qd": "xd", "qdd": "xdd", "tau": "f"}
+        moved = {name: platform[letter] for name, letter in letters.items()}
         forces = dataclasses.replace(platform, specs={**platform.specs, **moved})
         wrench = {name: argument.name for name, argument in moved.items()}
         frames.append(_CoordinateSet(PLATFORM, forces.extend("closed", **wrench)))
@@ -331,11 +320,11 @@ def _build_coordinate_sets(model: SymbolicModel, base: BaseParameters) -> list[_
 def _build_tree_coriolis(
     model: SymbolicModel, beta: Mapping[int, Expr], arguments: Arguments
 ) -> CFunction:
-    """Torques of the tree: the passive joints accelerate at qdd = 0 too, their rotors with them."""
-    rotors = {
+    """Torques of the tree: the passive joints accelerate at qdd = 0 too, their shafts with them."""
+    shafts = {
         k: v for k, v in beta.items() if model.columns[k].kind in ("inertial", "rotor_inertia")
     }
-    return arguments.declare("coriolis", model.derive_torque(rotors, gravity=False))
+    return arguments.declare("coriolis", model.derive_torque(shafts, gravity=False))
 
 
 def _build_regressors(

@@ -94,10 +94,8 @@ def find_deciding_symbols(geometry: Geometry) -> frozenset[str]:
     symbols are moved a little, and the entries compared with the cells as they were written.
     """
     robot = geometry.robot
-    moved = {
-        name: value * (1 + 1 / (97 + 12 * place))
-        for place, (name, value) in enumerate(geometry.values.items())
-    }
+    pairs = enumerate(geometry.values.items())
+    moved = {name: value * (1 + 1 / (97 + 12 * place)) for place, (name, value) in pairs}
     numbers: dict[str, float] = {}  # of all symbols and joint variables, some symbols moved
     for name, expression in robot.symbols.items():
         try:
@@ -192,24 +190,16 @@ def _build_table(name: str, law: Law, target: Target) -> LawTable:
 
     def format_numbers(values: Iterable[float]) -> list[str]:
         # What rounding left of a 0 may be too small for the target.
-        return [
-            target.format_literal(x if abs(x) > float(target.smallest) else 0.0) for x in values
-        ]
+        least = float(target.smallest)
+        return [target.format_literal(x if abs(x) > least else 0.0) for x in values]
 
     def format_axes(values: Iterable[float]) -> list[str]:
         return format_numbers([*values, 0.0][:2])
 
     lines = wrap_names(format_numbers(strips.ravel().tolist()))
     cells = format_axes(map(float, law.cells))
-    return LawTable(
-        name,
-        lines,
-        strips.size,
-        format_axes(law.low),
-        format_axes(law.scales),
-        cells,
-        strips.shape[2],
-    )
+    low, scales = format_axes(law.low), format_axes(law.scales)
+    return LawTable(name, lines, strips.size, low, scales, cells, strips.shape[2])
 
 
 def compute_law_strips(law: Law) -> np.ndarray:

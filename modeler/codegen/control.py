@@ -94,10 +94,8 @@ def build_forward_functions(
     calls = {"forward_dynamics": step, "forward_derivatives": step | slopes}
     calls |= {"operational_inertia": tool, "operational_inverse": tool}
     turns = TURNS if efforts.is_implicit else 1
-    functions += [
-        arguments.declare(role, composed=Composed(role, parts, turns))
-        for role, parts in calls.items()
-    ]
+    for role, parts in calls.items():
+        functions.append(arguments.declare(role, composed=Composed(role, parts, turns)))
     return tuple(functions)
 
 
@@ -198,9 +196,7 @@ def build_closed_control_functions(
     inner, public = list[CFunction](), list[CFunction]()
     forms = dict(sorted(layout.read_catalogue()["control"].items(), reverse=True))
     for f in tree:
-        rows = (
-            form for role, form in forms.items() if f.role == role or f.role.startswith(f"{role}_")
-        )
+        rows = (form for role, form in forms.items() if f"{f.role}_".startswith(f"{role}_"))
         row = next(rows, None)
         form = row and row.get("form")
         if form is None:
@@ -264,9 +260,8 @@ def format_state_prototypes(prefix: str, function: CFunction, number: str) -> tu
     if closed is None and not isinstance(function.composed, AtState):
         return "", "", ""
     motion = (closed.q, closed.qd, closed.start) if closed is not None else ("q", "qd")
-    reduced = dataclasses.replace(
-        function, inputs=tuple(a for a in function.inputs if a.name not in motion)
-    )
+    inputs = tuple(a for a in function.inputs if a.name not in motion)
+    reduced = dataclasses.replace(function, inputs=inputs)
     name = f"{prefix}_{function.role}_at"
     plain, state = layout.format_arguments(reduced, number, prefix), f"struct {prefix}_state *state"
     posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
@@ -432,11 +427,8 @@ def _build_dynamics(
 
 
 def _differentiate_torques(model: SymbolicModel, beta: Mapping[int, Expr]) -> list[Expr]:
-    n, torque, one = (
-        model.geometry.coordinate_count,
-        model.derive_torque(beta),
-        model.graph.constant(1),
-    )
+    n, one = model.geometry.coordinate_count, model.graph.constant(1)
+    torque = model.derive_torque(beta)
     slopes = []
     for kind in ("q", "qd"):
         columns = [derivation.differentiate(torque, {f"{kind}[{j}]": one}, True) for j in range(n)]

@@ -183,9 +183,8 @@ def _measure_flash(
 ) -> int:
     """Bytes of code and constants that are linked for one function alone."""
     alone = "alone.o"
-    _run_command(
-        folder, tools["ld"], "-r", "--gc-sections", "-u", name, "-e", name, *objects, "-o", alone
-    )
+    link = [tools["ld"], "-r", "--gc-sections", "-u", name, "-e", name]
+    _run_command(folder, *link, *objects, "-o", alone)
     text, data = _run_command(folder, tools["size"], alone).splitlines()[1].split()[:2]
     return int(text) + int(data)
 

@@ -95,10 +95,8 @@ def eliminate(
         (i, k): entry if graph.nodes[abs(entry.ref)].op == "num" else graph.symbol(f"J[{at}]")
         for at, ((i, k), entry) in enumerate(zip(pattern.places, pattern.entries, strict=True))
     }
-    solved_entries = {
-        (i, solved.index(k)): entry for (i, k), entry in symbols.items() if k in solved
-    }
-    factors = _Factors(graph, order, solved_entries)
+    entries = {(i, solved.index(k)): entry for (i, k), entry in symbols.items() if k in solved}
+    factors = _Factors(graph, order, entries)
     zero, every = graph.constant(0), range(len(solved))
     # J' - J of the solved columns; sums over its rows, and J^-1 times it, in scaled variables.
     changes = {
@@ -139,9 +137,8 @@ def sample_jacobians(model: SymbolicModel) -> np.ndarray:
     assert closure is not None
     solved, scale = list(closure.solved), closure.scale
     home = np.asarray(closure.home)
-    moves = np.random.default_rng(_SEED).uniform(
-        -_MOVED, _MOVED, (_POSTURES, len(closure.actuated))
-    )
+    shape = (_POSTURES, len(closure.actuated))
+    moves = np.random.default_rng(_SEED).uniform(-_MOVED, _MOVED, shape)
     u = np.tile(home, (_POSTURES, 1))
     u[:, list(closure.actuated)] += moves * scale[list(closure.actuated)]
     good = np.ones(_POSTURES, dtype=bool)
@@ -153,10 +150,8 @@ def sample_jacobians(model: SymbolicModel) -> np.ndarray:
             u[:, solved] -= np.array(steps)
             good &= np.isfinite(u).all(axis=1)
             u[~good] = home
-        good &= (
-            np.abs(closure.compute_residuals(u)).max(axis=1)
-            <= THRESHOLDS.max_sampled_residual * closure.size
-        )
+        residuals = np.abs(closure.compute_residuals(u)).max(axis=1)
+        good &= residuals <= THRESHOLDS.max_sampled_residual * closure.size
     return closure.compute_jacobians(np.concatenate([home[None], u[good]]))
 
 
@@ -569,9 +564,7 @@ def build_tile(
     if function is None or not function.entries:
         return None
     # Column after column as there; the link's own joint first is another 5 % faster with vectors.
-    ordered = sorted(
-        function.entries, key=lambda entry: (nonzeros[entry[0]][1], -nonzeros[entry[0]][0])
-    )
+    ordered = sorted(function.entries, key=lambda e: (nonzeros[e[0]][1], -nonzeros[e[0]][0]))
     outputs = [(f"MODELER_PUT({index})", value) for index, value in ordered]
     # `q[3]` of all lanes is the variable q_3.
     lanes = {s: re.sub(r"^(q|qd|qdd|s)\[(\d+)\]$", r"\1_\2", at) for s, at in places.items()}

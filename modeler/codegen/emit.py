@@ -128,10 +128,8 @@ def _build_base_specs(model: SymbolicModel, base: BaseParameters) -> tuple[manif
     for coefficient in (term.coefficient for each in base.parameters for term in each.terms):
         if coefficient not in terms:
             number = evaluate_precisely(graph, [model.algebra.static(coefficient)], values)[0]
-            terms[coefficient] = (
-                format_coefficient(coefficient, model.robot.has_binary_fractions),
-                float(number),
-            )
+            text = format_coefficient(coefficient, model.robot.has_binary_fractions)
+            terms[coefficient] = (text, float(number))
     specs = []
     for parameter in base.parameters:
         column = model.columns[parameter.column]
@@ -233,15 +231,14 @@ def emit(
     main, twins, more = ([f for f in part if f.role in selected] for part in parts)
     module = _build_module(model, base, OF_PRECISION[precision], solving, main, units, labels[0])
     code = _render_code(module)
-    build_other_files = build_cuda_files(module, labels[0]) if cuda else {}
+    files = build_cuda_files(module, labels[0]) if cuda else {}
     if fitted is not None:
         code |= _build_fitted_unit(module, fitted, twins, labels[1])
     if control is not None:
         code |= _build_control_unit(module, more, labels[2])
-        build_other_files |= (
-            build_structured_text(module, twins, labels[2]) if control.structured_text else {}
-        )
-        build_other_files |= build_a2l_files(module, [*main, *twins, *more]) if control.a2l else {}
+        if control.structured_text:
+            files |= build_structured_text(module, twins, labels[2])
+        files |= build_a2l_files(module, [*main, *twins, *more]) if control.a2l else {}
 
     def remaining() -> dict[str, str]:
         spec, vectors = module.spec, dict[str, str]()
@@ -256,7 +253,7 @@ def emit(
             manifest.MANIFEST: dataclasses.replace(spec, origin=make_origin()).format_file(),
         }
 
-    return EmittedModule(module.spec, _LazyFiles({**code, **build_other_files}, remaining))
+    return EmittedModule(module.spec, _LazyFiles({**code, **files}, remaining))
 
 
 def _build_parts(

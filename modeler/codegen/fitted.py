@@ -5,10 +5,9 @@ value of 0 multiplies is gone. Only here may the sign of a speed be smooth: func
 stay those of the regressors, phi beta, which fits and their checks rely on.
 """
 
-import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -72,10 +71,7 @@ def build_fitted_functions(
         twins = layout.build_dynamics_functions(model, values, arguments)
         return tuple(remove_beta(f, UNIT) for f in twins)
     tree, public = build_closed_dynamics(model, base, values)
-    inner = [
-        dataclasses.replace(remove_beta(f, UNIT), role=f"{_TREE}_{f.role}", internal=True)
-        for f in tree
-    ]
+    inner = [replace(remove_beta(f, UNIT), role=f"{_TREE}_{f.role}", internal=True) for f in tree]
     return (*inner, *(remove_beta(f, UNIT) for f in public))
 
 
@@ -94,11 +90,11 @@ def remove_beta(function: CFunction, unit: str) -> CFunction:
     closed, composed = function.closed, function.composed
     if closed is not None:
         reads = ", ".join(name for name in closed.reads.split(", ") if name != "beta")
-        closed = dataclasses.replace(closed, tree=_TREE, reads=reads)
+        closed = replace(closed, tree=_TREE, reads=reads)
     if composed is not None:
         roles = {word: _twin(role) for word, role in composed.roles.items()}
-        composed = dataclasses.replace(composed, roles=roles)
-    return dataclasses.replace(
+        composed = replace(composed, roles=roles)
+    return replace(
         function,
         unit=unit,
         role=_twin(function.role),
@@ -122,7 +118,7 @@ def find_widths(
     """
     values = [value for function in functions for _, value in function.entries]
     if values:
-        model = dataclasses.replace(model, graph=values[0].graph)
+        model = replace(model, graph=values[0].graph)
     nodes = [model.graph.nodes[index] for index in model.graph.find_reachable(values)]
     read = {node.args[0] for node in nodes if node.op == "sign"}
     widths: dict[int, Width] = {}

@@ -215,10 +215,8 @@ def _make_argument(
 
 def make_beta_symbols(model: SymbolicModel, base: BaseParameters) -> dict[int, Expr]:
     """Returns {standard column: the base parameter that stands for it}."""
-    return {
-        parameter.column: model.graph.symbol(f"beta[{i}]")
-        for i, parameter in enumerate(base.parameters)
-    }
+    parameters = enumerate(base.parameters)
+    return {p.column: model.graph.symbol(f"beta[{i}]") for i, p in parameters}
 
 
 def build_tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[CFunction, ...]:
@@ -244,12 +242,8 @@ def make_arguments(
         for unit in ("unit", "effort_unit")
     )
     rate, acceleration = (" or ".join(u + s for u in angle.split(" or ")) for s in ("/s", "/s2"))
-    words: dict[str, Any] = {
-        "angle": angle,
-        "rate": rate,
-        "acceleration": acceleration,
-        "effort": effort,
-    }
+    words: dict[str, Any] = {"angle": angle, "rate": rate, "effort": effort}
+    words |= {"acceleration": acceleration}
     words |= {"n": len(joints), "p": len(model.columns), "c": base.rank}
     shared = Arguments("", {}, words).extend("shared", signals=len(model.signals))
     if not model.signals:
@@ -261,9 +255,8 @@ def _build_regressors(
     model: SymbolicModel, base: BaseParameters, arguments: Arguments
 ) -> tuple[CFunction, ...]:
     p, place = len(model.columns), {each.column: i for i, each in enumerate(base.parameters)}
-    values = {
-        (joint, place[k]): value for (joint, k), value in model.regressor.items() if k in place
-    }
+    regressor = model.regressor.items()
+    values = {(joint, place[k]): value for (joint, k), value in regressor if k in place}
     order = {at: number for number, at in enumerate(sorted(values))}
     standard, based = sort_by_column(model.regressor), sort_by_column(values)
     return (
@@ -317,9 +310,8 @@ def _describe_friction_holds(model: SymbolicModel) -> str:
     joints: dict[str, dict[str, None]] = {}
     for column in model.columns:
         for part in column.parts if isinstance(column, ShaftColumn) else ():
-            moved = any(
-                name[0] in "vaz" for name in part.equation.names - part.nonlinear_parameters.keys()
-            )
+            letters = part.equation.names - part.nonlinear_parameters.keys()
+            moved = any(name[0] in "vaz" for name in letters)
             still = part.acts is EffectTarget.POSITION or not moved
             if still and part.kind != "offset":
                 joints.setdefault(part.effect, {})[model.robot.joints[part.row].name] = None
@@ -464,9 +456,8 @@ def format_parameter_lines(
         spec: of the module.
         relations: what `relation` writes of each base parameter.
     """
-    standard = [
-        f"{i:4d}  {parameter.name:<8} {parameter.unit}" for i, parameter in enumerate(spec.standard)
-    ]
+    lines = enumerate(spec.standard)
+    standard = [f"{i:4d}  {parameter.name:<8} {parameter.unit}" for i, parameter in lines]
     base = []
     for i, (parameter, text) in enumerate(zip(spec.base, relations, strict=True)):
         base += textwrap.wrap(
@@ -606,9 +597,8 @@ def list_unread_inputs(function: CFunction, block: Block) -> Iterable[str]:
 
 def wrap_names(names: Iterable[object]) -> list[str]:
     """Returns words or numbers of a C table or enum, in lines of readable length."""
-    return textwrap.wrap(
-        ", ".join(map(str, names)), _WIDTH - 4, break_long_words=False, break_on_hyphens=False
-    )
+    options: Any = {"break_long_words": False, "break_on_hyphens": False}
+    return textwrap.wrap(", ".join(map(str, names)), _WIDTH - 4, **options)
 
 
 # C names: of the module, of geometric symbols, of arrays.

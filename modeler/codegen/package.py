@@ -267,7 +267,7 @@ def build_package_files(
     prefix = spec.prefix
     examples, count = select_examples(spec), count_values(spec)
     every = spec.every_function
-    template_values = {
+    values = {
         **values,
         "origin": make_origin(),
         "status": any(f.status for f in every),
@@ -314,13 +314,11 @@ def build_package_files(
     order = [f for f in order if f.name in stored | products | {f"{prefix}_base_parameters"}]
     largest = max(f.outputs[0].size for f in every)
     checked = {"checked": order, "products": PRODUCTS, "turning": TURNING, "largest": largest}
-    program_values = {name: build_example_values(spec, name) for name in examples} | {
-        SELF_CHECK: checked
-    }
-    program_values |= {COUNT: count} if count is not None else {}
-    program_values |= {VECTORS: {"largest": largest}} if values["many_states"] else {}
-    programs = {f"{FOLDER}/{name}.c": more for name, more in program_values.items()}
-    template_values["files"] = {
+    more = {name: build_example_values(spec, name) for name in examples} | {SELF_CHECK: checked}
+    more |= {COUNT: count} if count is not None else {}
+    more |= {VECTORS: {"largest": largest}} if values["many_states"] else {}
+    programs = {f"{FOLDER}/{name}.c": texts for name, texts in more.items()}
+    values["files"] = {
         *code,
         *templates,
         *programs,
@@ -328,11 +326,8 @@ def build_package_files(
         MANIFEST,
         *(("vectors.csv",) if values["many_states"] else ()),
     }
-    texts = {name: render(template, **template_values) for name, template in templates.items()}
-    return texts | {
-        path: render(f"{Path(path).name}", **template_values, **more)
-        for path, more in programs.items()
-    }
+    files = {name: render(template, **values) for name, template in templates.items()}
+    return files | {path: render(Path(path).name, **values, **x) for path, x in programs.items()}
 
 
 def _describe_package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, Any]:

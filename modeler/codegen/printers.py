@@ -66,10 +66,8 @@ def _plan_products(spec: ModuleSpec) -> dict[str, Any]:
     columns = len(entries) + joints
     products = []
     for joint in range(joints):
-        joint_entries = [k for k, (row, _) in enumerate(entries) if row == joint] + [
-            len(entries) + joint
-        ]
-        products += [(a, b) for at, a in enumerate(joint_entries) for b in joint_entries[at:]]
+        places = [k for k, (row, _) in enumerate(entries) if row == joint] + [len(entries) + joint]
+        products += [(a, b) for at, a in enumerate(places) for b in places[at:]]
     fitting = (tile for tile in _TILES if columns * (tile + 1) * 8 <= _SHARED)
     return {
         "threads": CUDA_THREADS,
@@ -87,15 +85,8 @@ def _plan_products(spec: ModuleSpec) -> dict[str, Any]:
 # small letters from capital ones and have no two underscores in a row, as the standard needs it.
 
 
-_ROLES = (
-    "inverse_dynamics",
-    "inertia_matrix",
-    "gravity",
-    "coriolis",
-    "friction",
-    "base_parameters",
-    "advance",
-)
+_DYNAMICS = ("inverse_dynamics", "inertia_matrix", "gravity", "coriolis", "friction")
+_ROLES = (*_DYNAMICS, "base_parameters", "advance")
 _OWN = ("sign", "tanh")
 _STANDARD = {"abs": "ABS", "pow": "EXPT"}
 
@@ -161,9 +152,7 @@ def build_structured_text(
     for each in made:
         own_symbols = [name for name in known if name in each["block"].symbols]
         each["constants"] = [(lengths[n], target.format_literal(known[n])) for n in own_symbols]
-    unit = (
-        format_fitted_texts(spec, spec.fitted, ()) if spec.fitted is not None else {"remarks": []}
-    )
+    unit = {"remarks": []} if spec.fitted is None else format_fitted_texts(spec, spec.fitted, ())
     blocks = [each["block"] for each in made]
     texts = {
         **unit,

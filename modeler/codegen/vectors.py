@@ -73,9 +73,8 @@ def build_stored_states(
         inputs, balls = _evaluate_tables(model, functions, STATES)
     expected = {role: [_round_balls(row) for row in rows] for role, rows in balls.items()}
     products = {role for role in roles if role in PRODUCTS}
-    shown = {*roles} | {
-        f"{'platform_' * role.startswith('platform_')}inverse_dynamics" for role in products
-    }
+    heads = (f"{'platform_' * role.startswith('platform_')}" for role in products)
+    shown = {*roles, *(f"{head}inverse_dynamics" for head in heads)}
     read = {a.name for f in functions if f.role in roles and not f.internal for a in f.inputs}
     read |= {"beta"} if products - {"regressor"} or "base_parameters" in roles else set()
     read |= {"chi"} if "regressor" in roles else set()
@@ -118,11 +117,8 @@ def format_vectors(
                     lines.append(",".join([name, str(state), *map(repr, table[state])]))
             for role, rows in expected.items():
                 if role in roles and state < len(rows):
-                    lines.append(
-                        ",".join(
-                            [f"{prefix}_{role}", str(state), *map(_format_digits, rows[state])]
-                        )
-                    )
+                    numbers = map(_format_digits, rows[state])
+                    lines.append(",".join([f"{prefix}_{role}", str(state), *numbers]))
     outputs = sum(line.startswith(f"{prefix}_") for line in lines)
     return "".join(f"{line}\n" for line in [*lines, f"outputs,{outputs}"])
 
@@ -231,7 +227,7 @@ def _evaluate_tables(
                 if f.internal or role in left or c.q != name:
                     continue
                 if f.composed:
-                    composed_inputs = {
+                    known = {
                         **constants,
                         **signals,
                         **_name_entries(tau=inputs["tau"][k]),
@@ -239,17 +235,11 @@ def _evaluate_tables(
                     }
                     if isinstance(f.composed, AtState):
                         made = _carry_over(
-                            f.composed,
-                            composed_inputs,
-                            _TreeMotion(enclosures, u, qd),
-                            evaluate_outputs,
+                            f.composed, known, _TreeMotion(enclosures, u, qd), evaluate_outputs
                         )
                     else:
                         made = _solve_composed(
-                            f,
-                            composed_inputs,
-                            _name_entries(damping=inputs["damping"][k]),
-                            evaluate_outputs,
+                            f, known, _name_entries(damping=inputs["damping"][k]), evaluate_outputs
                         )
                     expected.setdefault(role, []).extend([made] if made else [])
                     continue
@@ -355,10 +345,10 @@ def _carry_over(
         product = M.inv() * (make_column("tau") - bias)
     elif form == "slotine_li":
         v, a = by.G * make_column("v"), by.G * make_column("a") + by.rate * make_column("v")
-        tree_inputs = {
+        known = {
             f"{x}[{k}]": y for x, ys in (("v", v), ("a", a)) for k, y in enumerate(ys.entries())
         }
-        product = back * make_tree_matrix(role, n, {**inputs, **tree_inputs})
+        product = back * make_tree_matrix(role, n, {**inputs, **known})
     elif form == "coriolis_matrix":
         product = back * (make_tree_matrix(role, n) * by.G + make_tree_matrix(beside, n) * by.rate)
     else:

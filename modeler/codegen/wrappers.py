@@ -147,9 +147,8 @@ def _list_variables(
             "causality": causality,
             **more,
         }
-        variables.append(
-            {key: escape(str(value), {'"': "&quot;"}) for key, value in attributes.items()}
-        )
+        quotes = {'"': "&quot;"}
+        variables.append({key: escape(str(value), quotes) for key, value in attributes.items()})
 
     def add_parameter(name: str, unit: str, about: str, start: float) -> None:
         add_variable(name, unit, about, "parameter", initial="exact", start=start)
@@ -249,9 +248,7 @@ def build_ros2_files(emitted: EmittedModule, beta: Sequence[float], source: str)
         words = [f"{c_names[argument.name]}.data()" for argument in roles[role].inputs]
         call = f"{roles[role].name}({', '.join(words)}, {out}.data())"
         if status:
-            call = (
-                f"int status = {call}" if not calls else f"status = status != 0 ? status : {call}"
-            )
+            call = f"status = status != 0 ? status : {call}" if calls else f"int status = {call}"
         calls.append(f"{call};")
     names = [joint.name for joint in spec.joints]
     title = spec.title or spec.robot

@@ -6,7 +6,7 @@ expression system (CasADi): nothing here is shared with the Newton-Euler recursi
 
 from collections.abc import Mapping, Sequence
 
-import casadi
+import casadi as ca
 import numpy as np
 import sympy
 
@@ -18,7 +18,7 @@ from modeler.robot import INERTIAL
 
 def _build_torque_function(
     geometry: Geometry, parameters: Sequence[tuple[int, str]]
-) -> casadi.Function:
+) -> ca.Function:
     """(q, qd, qdd, chi) -> tau of the rigid links at the nominal geometry.
 
     tau = d/dt (dT/dqd) - dT/dq + dU/dq with T = 1/2 qd' M qd, which is M qdd + C qd + dU/dq; the
@@ -28,42 +28,42 @@ def _build_torque_function(
         geometry: the exact table.
         parameters: (row, prefix) of each entry of chi, ten for every link.
     """
-    q, qd, qdd = (casadi.SX.sym(name, geometry.joint_count) for name in ("q", "qd", "qdd"))
-    chi = casadi.SX.sym("chi", len(parameters))
+    q, qd, qdd = (ca.SX.sym(name, geometry.joint_count) for name in ("q", "qd", "qdd"))
+    chi = ca.SX.sym("chi", len(parameters))
     transforms = _build_base_transforms(geometry, q)
-    T, U = casadi.SX(0), casadi.SX(0)
-    gravity = casadi.SX([_evaluate_number(entry, geometry.values) for entry in geometry.gravity])
+    T, U = ca.SX(0), ca.SX(0)
+    gravity = ca.SX([_evaluate_number(entry, geometry.values) for entry in geometry.gravity])
     for link, k in enumerate(dict.fromkeys(k for k, _ in parameters)):
         J, MS, M = _unpack_inertia(chi[10 * link : 10 * link + 10])
         R, p = transforms[k][:3, :3], transforms[k][:3, 3]
         w, v = _derive_velocities(R, p, q, qd)
-        T += 0.5 * (w.T @ J @ w + M * v.T @ v) + casadi.dot(v, casadi.cross(w, MS))
-        U -= casadi.dot(gravity, M * p + R @ MS)
-    momentum = casadi.gradient(T, qd)
+        T += 0.5 * (w.T @ J @ w + M * v.T @ v) + ca.dot(v, ca.cross(w, MS))
+        U -= ca.dot(gravity, M * p + R @ MS)
+    momentum = ca.gradient(T, qd)
     tau = (
-        casadi.jtimes(momentum, qd, qdd)
-        + casadi.jtimes(momentum, q, qd)
-        - casadi.gradient(T, q)
-        + casadi.gradient(U, q)
+        ca.jtimes(momentum, qd, qdd)
+        + ca.jtimes(momentum, q, qd)
+        - ca.gradient(T, q)
+        + ca.gradient(U, q)
     )
-    return casadi.Function("tau", [q, qd, qdd, chi], [tau])
+    return ca.Function("tau", [q, qd, qdd, chi], [tau])
 
 
 def _evaluate_number(value: sympy.Expr, values: Mapping[str, float]) -> float:
     return float(value.subs({symbol: values[symbol.name] for symbol in value.free_symbols}))
 
 
-def _build_base_transforms(geometry: Geometry, q: casadi.SX) -> list[casadi.SX]:
-    transforms: list[casadi.SX] = []
+def _build_base_transforms(geometry: Geometry, q: ca.SX) -> list[ca.SX]:
+    transforms: list[ca.SX] = []
     for row in geometry.rows:
         entries = {
-            name: casadi.SX(_evaluate_number(getattr(row, name), geometry.values))
+            name: ca.SX(_evaluate_number(getattr(row, name), geometry.values))
             for name in ("gamma", "b", "alpha", "d", "theta", "r")
         }
         if row.index is not None:
             moving = "theta" if row.joint.is_revolute else "r"
             entries[moving] += row.rate * q[row.index]
-        T = casadi.SX.eye(4) if row.parent is None else transforms[row.parent]
+        T = ca.SX.eye(4) if row.parent is None else transforms[row.parent]
         T = T @ _build_rotation(2, entries["gamma"]) @ _build_translation(2, entries["b"])
         T = T @ _build_rotation(0, entries["alpha"]) @ _build_translation(0, entries["d"])
         transforms.append(
@@ -72,34 +72,32 @@ def _build_base_transforms(geometry: Geometry, q: casadi.SX) -> list[casadi.SX]:
     return transforms
 
 
-def _build_rotation(axis: int, angle: casadi.SX) -> casadi.SX:
-    T = casadi.SX.eye(4)
+def _build_rotation(axis: int, angle: ca.SX) -> ca.SX:
+    T = ca.SX.eye(4)
     i, j = ((1, 2), (2, 0), (0, 1))[axis]
-    c, s = casadi.cos(angle), casadi.sin(angle)
+    c, s = ca.cos(angle), ca.sin(angle)
     T[i, i], T[j, j], T[i, j], T[j, i] = c, c, -s, s
     return T
 
 
-def _build_translation(axis: int, length: casadi.SX) -> casadi.SX:
-    T = casadi.SX.eye(4)
+def _build_translation(axis: int, length: ca.SX) -> ca.SX:
+    T = ca.SX.eye(4)
     T[axis, 3] = length
     return T
 
 
-def _unpack_inertia(chi: casadi.SX) -> tuple[casadi.SX, casadi.SX, casadi.SX]:
+def _unpack_inertia(chi: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
     XX, XY, XZ, YY, YZ, ZZ = (chi[i] for i in range(6))
-    rows: Sequence[Sequence[casadi.SX]] = ((XX, XY, XZ), (XY, YY, YZ), (XZ, YZ, ZZ))
-    return casadi.vertcat(*(casadi.horzcat(*row) for row in rows)), chi[6:9], chi[9]
+    rows: Sequence[Sequence[ca.SX]] = ((XX, XY, XZ), (XY, YY, YZ), (XZ, YZ, ZZ))
+    return ca.vertcat(*(ca.horzcat(*row) for row in rows)), chi[6:9], chi[9]
 
 
-def _derive_velocities(
-    R: casadi.SX, p: casadi.SX, q: casadi.SX, qd: casadi.SX
-) -> tuple[casadi.SX, casadi.SX]:
+def _derive_velocities(R: ca.SX, p: ca.SX, q: ca.SX, qd: ca.SX) -> tuple[ca.SX, ca.SX]:
     """Angular and linear velocity of a frame, in the frame: from d/dt of R and p."""
-    Rd = casadi.reshape(casadi.jtimes(casadi.vec(R), q, qd), 3, 3)
+    Rd = ca.reshape(ca.jtimes(ca.vec(R), q, qd), 3, 3)
     W = R.T @ Rd
-    w = casadi.vertcat(W[2, 1], W[0, 2], W[1, 0])
-    return w, R.T @ casadi.jtimes(p, q, qd)
+    w = ca.vertcat(W[2, 1], W[0, 2], W[1, 0])
+    return w, R.T @ ca.jtimes(p, q, qd)
 
 
 # Torques of the links by Lagrange, for any robot: tied joints and loops included.
