@@ -9,16 +9,8 @@ from typing import Any
 
 import casadi as ca
 
-from modeler.codegen import functions as layout
-from modeler.codegen.control import (
-    SMOOTH,
-    Control,
-    build_control_functions,
-    build_efforts,
-    build_smooth_functions,
-    get_turning_joint,
-    list_turning_joints,
-)
+from modeler.codegen import control, functions as layout
+from modeler.codegen.control import SMOOTH, Control
 from modeler.codegen.fitted import find_widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.thresholds import THRESHOLDS
@@ -115,10 +107,10 @@ def build_casadi_functions(
     arguments = layout.make_arguments(model.robot.free_joints, model, base)
     listed = [*layout.build_tree_functions(model, base)]
     if model.closure is not None:
-        listed += build_smooth_functions(model, beta, arguments)
+        listed += control.build_smooth_functions(model, beta, arguments)
     else:
-        listed += build_control_functions(model, base, Control())
-    turning = list_turning_joints(model, base)
+        listed += control.build_control_functions(model, base, Control())
+    turning = control.list_turning_joints(model, base)
     public = (f for f in listed if not f.internal and f.composed is None)
     functions = {f.role: _build_function(model, f, turning) for f in public}
     missing: tuple[str, ...] = ()
@@ -128,7 +120,11 @@ def build_casadi_functions(
     composed = [f.role for f in listed if f.composed and f.role != "forward_dynamics"]
     if composed:
         missing = (f"not there: {', '.join(composed)}, which return a status in C",)
-    solve = _build_forward_by_newton if build_efforts(model, beta).is_implicit else _build_forward
+    solve = (
+        _build_forward_by_newton
+        if control.build_efforts(model, beta).is_implicit
+        else _build_forward
+    )
     for head in ("", SMOOTH)[: 1 + bool(turning)]:
         functions[f"{head}forward_dynamics"] = solve(head, functions)
     return list(functions.values()), missing
@@ -143,7 +139,7 @@ def _build_function(model: SymbolicModel, f: CFunction, turning: Sequence[str] =
     arithmetic = _SYMBOLIC
     if "widths" in inputs:
         over = {
-            speed: inputs["widths"][turning.index(get_turning_joint(width))]
+            speed: inputs["widths"][turning.index(control.get_turning_joint(width))]
             for speed, width in find_widths("", model, [f]).items()
         }
         arithmetic = _smooth_signs(graph, values, over)

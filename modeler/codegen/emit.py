@@ -7,13 +7,8 @@ from functools import cache
 
 import sympy
 
-from modeler.codegen import functions as layout
-from modeler.codegen.closed import (
-    LoopSolver,
-    build_closed_functions,
-    build_closure_tables,
-    build_loop_solver,
-)
+from modeler.codegen import closed, elimination, functions as layout
+from modeler.codegen.closed import LoopSolver
 from modeler.codegen.context import (
     ModuleContext,
     WrittenFunction,
@@ -29,13 +24,7 @@ from modeler.codegen.control import (
     build_fitted_control_functions,
     select_roles,
 )
-from modeler.codegen.elimination import (
-    UNIT as TILE_UNIT,
-    ClosingTile,
-    Tile,
-    build_closing_tile,
-    build_tile,
-)
+from modeler.codegen.elimination import UNIT as TILE_UNIT, ClosingTile, Tile
 from modeler.codegen.fitted import (
     UNIT,
     build_fitted_functions,
@@ -215,7 +204,7 @@ def emit(
     if fitted is not None:
         check_values(base, fitted)
     with model.restore_labels():
-        solving = build_loop_solver(model, base) if model.closure is not None else None
+        solving = closed.build_loop_solver(model, base) if model.closure is not None else None
         parts, labels = list[Sequence[CFunction]](), list[dict[int, Label]]()
         for part in _build_parts(model, base, solving, fitted, control):
             parts.append(part)
@@ -267,7 +256,7 @@ def _build_parts(
     yield (
         layout.build_tree_functions(model, base)
         if solving is None
-        else build_closed_functions(model, base, solving)
+        else closed.build_closed_functions(model, base, solving)
     )
     yield build_fitted_functions(model, base, fitted) if fitted is not None else ()
     more = build_control_functions(model, base, control) if control is not None else ()
@@ -336,7 +325,7 @@ def _build_module(
     spec = dataclasses.replace(spec, functions=build_function_specs(prefix, written))
     there = {f.role for f in functions}
     shown = spec.nonzeros if spec.has_unit("_batch") or "base_regressor_nonzeros" in there else ()
-    loops = build_closure_tables(model, base, solving, target) if solving else None
+    loops = closed.build_closure_tables(model, base, solving, target) if solving else None
     if loops is not None:
         loops["sets"] = [each for each in loops["sets"] if f"tree_{each['head']}factor" in there]
         loops["rowed"] = "tree_rows" in there
@@ -396,8 +385,8 @@ def _build_tile(
     if not spec.tile_sources:
         return None
     if spec.closure is not None:
-        return build_closing_tile(functions, places, len(spec.base), target, labels)
-    return build_tile(functions, places, spec.nonzeros, target, labels)
+        return elimination.build_closing_tile(functions, places, len(spec.base), target, labels)
+    return elimination.build_tile(functions, places, spec.nonzeros, target, labels)
 
 
 def _build_fitted_unit(

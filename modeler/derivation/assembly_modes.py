@@ -78,9 +78,8 @@ def find_closed_postures(linkage: Linkage, u: np.ndarray, places: np.ndarray) ->
         normal = J @ J.transpose(0, 2, 1) + damping[:, None, None] * np.eye(J.shape[1])
         step = -np.einsum("nji,nj->ni", J, np.linalg.solve(normal, f[..., None])[..., 0])
         longest = np.max(np.abs(step), axis=1, keepdims=True)
-        u[:, places] += (
-            step * np.minimum(1.0, THRESHOLDS.max_search_step / np.maximum(longest, 1e-300)) * scale
-        )
+        size = np.maximum(longest, 1e-300)
+        u[:, places] += step * np.minimum(1.0, THRESHOLDS.max_search_step / size) * scale
     closed_postures = np.concatenate(done)
     if not len(closed_postures):
         return closed_postures
@@ -124,9 +123,8 @@ def partition_by_shape(linkage: Linkage, u: np.ndarray) -> list[np.ndarray]:
     groups: list[list[int]] = []
     firsts = np.empty((0, shape.shape[1]))
     for k, one in enumerate(shape):
-        same = np.flatnonzero(
-            np.max(np.abs(firsts - one), axis=1, initial=0.0) < THRESHOLDS.same_shape
-        )
+        departures = np.max(np.abs(firsts - one), axis=1, initial=0.0)
+        same = np.flatnonzero(departures < THRESHOLDS.same_shape)
         if len(same):
             groups[int(same[0])].append(k)
         else:
@@ -315,13 +313,12 @@ def find_assembly_modes(linkage: Linkage, hints: np.ndarray) -> tuple[AssemblyMo
     ranked = []
     for group in groups:
         u = select_best_copy(
-            linkage, group, lambda some: _compute_rank_keys(linkage, some, hints, best)
+            linkage, group, lambda some: _rank_postures(linkage, some, hints, best)
         )
         copies = len(np.unique(np.round(group, THRESHOLDS.rank_key_digits - 1), axis=0))
-        key = _compute_rank_keys(linkage, u[None], hints, best)[0]
-        ranked.append(
-            (_insert_ratio_count(key, int(count_constant_ratios(linkage, u[None])[0])), u, copies)
-        )
+        key = _rank_postures(linkage, u[None], hints, best)[0]
+        ratios = int(count_constant_ratios(linkage, u[None])[0])
+        ranked.append((_insert_ratios(key, ratios), u, copies))
     ranked.sort(key=lambda one: one[0])
     distance, excess = linkage.loops.compute_singularity_distance, linkage.compute_limit_excess
     return tuple(
@@ -342,7 +339,7 @@ def _format_letter(k: int) -> str:
     return ("" if k < 26 else _format_letter(k // 26 - 1)) + chr(ord("A") + k % 26)
 
 
-def _compute_rank_keys(
+def _rank_postures(
     linkage: Linkage, u: np.ndarray, hints: np.ndarray, best: float
 ) -> list[tuple[float, ...]]:
     """By posture, what sorts the better one first."""
@@ -366,7 +363,7 @@ def _compute_rank_keys(
     return [tuple(line) for line in columns.tolist()]
 
 
-def _insert_ratio_count(key: tuple[float, ...], ties: int) -> tuple[float, ...]:
+def _insert_ratios(key: tuple[float, ...], ties: int) -> tuple[float, ...]:
     return (*key[:_BEFORE_TIES], -ties, *key[_BEFORE_TIES:])
 
 
@@ -375,16 +372,15 @@ def _select_reference_posture(linkage: Linkage, u: np.ndarray, hints: np.ndarray
 
     Ties take long to count: they are for the best postures, and some others down to the worst.
     """
-    keys = _compute_rank_keys(
-        linkage, u, hints, float(np.max(linkage.loops.compute_singularity_distance(u)))
-    )
+    best = float(np.max(linkage.loops.compute_singularity_distance(u)))
+    keys = _rank_postures(linkage, u, hints, best)
     order = sorted((k for k, key in enumerate(keys) if not key[1]), key=keys.__getitem__)
     spread = np.linspace(0, len(order) - 1, THRESHOLDS.counted_postures).astype(int)
     first = range(min(THRESHOLDS.counted_postures, len(order)))
     some = [order[k] for k in sorted({*first, *spread.tolist()})]
     ties = count_constant_ratios(linkage, u[some])
     ranked = zip(some, ties, strict=True)
-    return u[min(ranked, key=lambda one: _insert_ratio_count(keys[one[0]], one[1]))[0]]
+    return u[min(ranked, key=lambda one: _insert_ratios(keys[one[0]], one[1]))[0]]
 
 
 def _find_common_postures(linkage: Linkage, hints: np.ndarray) -> np.ndarray:
@@ -398,16 +394,14 @@ def _find_common_postures(linkage: Linkage, hints: np.ndarray) -> np.ndarray:
     for held in (np.isfinite(wanted), np.isfinite(wanted) & np.isfinite(hints), wanted > np.inf):
         u = draw_start_postures(linkage, meant)
         u[:, held] = wanted[held]
-        around = _discard_singular(
-            linkage, find_closed_postures(linkage, u, every[~held & linkage.is_tied]), hints
-        )
+        posed = find_closed_postures(linkage, u, every[~held & linkage.is_tied])
+        around = _discard_singular(linkage, posed, hints)
         if not len(around):
             continue
         around = reset_uncoupled_joints(linkage, around, meant)
         place = _select_reference_posture(linkage, around, hints)
-        place = _round_actuated_joints(
-            linkage, place, every[~held & linkage.is_tied & np.isin(every, actuated)]
-        )
+        tied = every[~held & linkage.is_tied & np.isin(every, actuated)]
+        place = _round_actuated_joints(linkage, place, tied)
         u = np.concatenate([draw_start_postures(linkage, meant), around, place[None]])
         u = reset_uncoupled_joints(linkage, u, meant, around)
         u[:, actuated] = place[actuated]

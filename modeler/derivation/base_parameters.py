@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import sympy
 
+from modeler.derivation import link_relations, modular, numeric_rank
 from modeler.derivation.field import (
     CoefficientTooLarge,
     Element,
@@ -18,14 +19,7 @@ from modeler.derivation.field import (
     reduce_sparse_rows,
 )
 from modeler.derivation.geometry import Geometry, build_exact_geometry
-from modeler.derivation.link_relations import (
-    INERTIA,
-    OFFSET,
-    derive_closure_relations,
-    derive_loop_relations,
-    group_tree,
-    move_to_link,
-)
+from modeler.derivation.link_relations import INERTIA, OFFSET
 from modeler.derivation.model import (
     LinkColumn,
     StandardColumn,
@@ -33,23 +27,8 @@ from modeler.derivation.model import (
     build_link_column,
     is_in_block,
 )
-from modeler.derivation.modular import (
-    PRIME,
-    ModularState,
-    compute_modular_rank,
-    derive_tied_relations,
-    has_energy,
-)
-from modeler.derivation.numeric_rank import (
-    NumericRank,
-    Sample,
-    compare_torques,
-    compute_numeric_rank,
-    derive_numeric_grouping,
-    draw_sample,
-    enclose_factors,
-    prove_rank,
-)
+from modeler.derivation.modular import PRIME, ModularState
+from modeler.derivation.numeric_rank import NumericRank, Sample, prove_rank
 from modeler.derivation.relations import (
     BallRank,
     BaseParameter,
@@ -246,10 +225,12 @@ def derive_column_relations(
     units = build_grouping_units(geometry, model.columns)
     order = sort_by_priority(model.names, model.robot.priority_parameters)
     if geometry.has_relations:
-        rows = derive_tied_relations(geometry, units.columns, K, units.sort_units(order), seed)
+        rows = modular.derive_tied_relations(
+            geometry, units.columns, K, units.sort_units(order), seed
+        )
     else:
         rows = _derive_link_relations(geometry, K, units)
-    rows += derive_loop_relations(geometry, K, units.places)
+    rows += link_relations.derive_loop_relations(geometry, K, units.places)
     rows, auxiliary = units.merge_rows(rows)
     rows += [
         {place: K.one * sympy.QQ(c.numerator, c.denominator) for place, c in relation.items()}
@@ -274,10 +255,9 @@ def add_closure_relations(
 ) -> GroupingRelations:
     """Adds the relations among the kept columns that go around whole loops."""
     order = sort_by_priority(model.names, model.robot.priority_parameters)
-    kept_columns = [
-        i for i in order if i in relations.kept_columns and has_energy(model.columns[i])
-    ]
-    more = derive_closure_relations(geometry, model.columns, K, kept_columns, seed)
+    independent = {i for i in relations.kept_columns if modular.has_energy(model.columns[i])}
+    kept_columns = [i for i in order if i in independent]
+    more = link_relations.derive_closure_relations(geometry, model.columns, K, kept_columns, seed)
     reduced, dropped = reduce_sparse_rows([*relations.rows, *more], order[::-1])
     left = [i for i in range(len(model.columns)) if i not in set(dropped)]
     return GroupingRelations(tuple(reduced), tuple(dropped), tuple(left))
@@ -289,12 +269,12 @@ def _derive_link_relations(
     """Relations of a tree whose rows all move freely."""
     relations = []
     places = units.places
-    for k, grouping in enumerate(group_tree(geometry, K, places.keys())):
+    for k, grouping in enumerate(link_relations.group_tree(geometry, K, places.keys())):
         if geometry.rows[k].index is None:
             continue
         for hidden, moved in zip(grouping.hidden, grouping.moved, strict=True):
             relation = {places[k, i]: x for i, x in enumerate(hidden) if x}
-            parent, moved = move_to_link(geometry, K, geometry.rows[k].parent, moved)
+            parent, moved = link_relations.move_to_link(geometry, K, geometry.rows[k].parent, moved)
             if parent is not None:
                 for i, x in enumerate(moved):
                     if x:
@@ -310,9 +290,8 @@ def build_base_parameters(
 
     A relation col_d + sum r_b col_b = 0 gives beta_b = chi_b - r_b chi_d.
     """
-    terms: dict[int, list[Term]] = {
-        b: [Term(sympy.Integer(1), columns[b].name)] for b in relations.kept_columns
-    }
+    one = sympy.Integer(1)
+    terms: dict[int, list[Term]] = {b: [Term(one, columns[b].name)] for b in relations.kept_columns}
     unidentifiable = []
     for place, row in sorted(zip(relations.dropped_columns, relations.rows, strict=True)):
         if len(row) == 1:
@@ -385,8 +364,10 @@ def derive_base_parameters(
         DerivationError: a priority pattern matches nothing.
     """
     samples = max(60, 3 * len(model.columns) // max(1, len(model.robot.coordinates)))
-    sample = draw_sample(model, samples, seed)
-    attempt = _Attempt(model, sample, compute_numeric_rank(sample, range(len(model.columns))), seed)
+    sample = numeric_rank.draw_sample(model, samples, seed)
+    attempt = _Attempt(
+        model, sample, numeric_rank.compute_numeric_rank(sample, range(len(model.columns))), seed
+    )
     try:
         if model.special:  # loops that close at the given values only
             joints = f"joint{'s' if len(model.special) > 1 else ''} {', '.join(model.special)}"
@@ -451,8 +432,8 @@ class _Attempt:
 
     def derive_numeric(self, why: str) -> BaseParameters:
         """Derives the base parameters in floating point, for the reason `why`."""
-        exact = partial(enclose_factors, self.model, self.sample, self.seed)
-        parameters, unidentifiable, bound = derive_numeric_grouping(
+        exact = partial(numeric_rank.enclose_factors, self.model, self.sample, self.seed)
+        parameters, unidentifiable, bound = numeric_rank.derive_numeric_grouping(
             self.model, self.sample, self.numeric, exact
         )
         columns = [p.column for p in parameters]
@@ -488,7 +469,7 @@ class _Attempt:
             ends = zip(model.robot.coordinates, moved.min(axis=0), moved.max(axis=0), strict=True)
             ranges = {joint.name: (float(low), float(high)) for joint, low, high in ends}
             sampling = Sampling(len(walk.postures), ranges, walk.distance)
-        agreement = compare_torques(model, parameters, self.seed)
+        agreement = numeric_rank.compare_torques(model, parameters, self.seed)
         rank = (numeric.rank, numeric.gap, numeric.tolerance, numeric.scale)
         proof = Proof(kind, statement, independence, self.seed, *rank, agreement, sampling)
         return BaseParameters(model.columns, parameters, unidentifiable, proof)
@@ -529,7 +510,7 @@ def certify_relations(
     # Columns |v| of pairwise non-proportional speeds are independent; see the friction relations.
     rank = len(coulomb) - len(find_friction_relations(coulomb))
     rank += sum(is_in_block(column, EnergyBlock.OWN) for column in left)
-    rank += sum(compute_modular_rank(rows[:, kept_columns]) for rows in (energy, rayleigh))
+    rank += sum(modular.compute_modular_rank(rows[:, kept_columns]) for rows in (energy, rayleigh))
     if rank != len(left):
         raise ProofError(f"of {len(left)} columns kept only {rank} are independent")
     return ModularRank(rank, PRIME, THRESHOLDS.proof_checks * points, seed)

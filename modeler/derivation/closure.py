@@ -18,17 +18,10 @@ import numpy as np
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import LoopError
 from modeler.core.expression import get_precise_context
+from modeler.derivation import kinematics
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.graph import Expr, Graph, differentiate
-from modeler.derivation.kinematics import (
-    Algebra,
-    GraphAlgebra,
-    Pose,
-    compute_relative_poses,
-    dot,
-    plus,
-    times,
-)
+from modeler.derivation.kinematics import Algebra, GraphAlgebra, Pose, dot
 from modeler.derivation.precise import convert_to_precise, evaluate_precisely
 from modeler.derivation.thresholds import THRESHOLDS
 from modeler.robot import INERTIAL, Loop, Robot
@@ -150,14 +143,10 @@ class LoopEquations(ShortRepr):
         inputs = {f"q[{k}]": u[:, k] for k in range(self.unknown_count)}
         if ud is not None:
             inputs |= {f"qd[{k}]": ud[:, k] for k in range(self.unknown_count)}
-        nonzero_expressions = [
-            (i, e) for i, e in enumerate(expressions) if e.ref
-        ]  # the others are 0
-        results = self.graph.evaluate_outputs(
-            [e for _, e in nonzero_expressions], {**self.values, **inputs}
-        )
+        nonzeros = [(i, e) for i, e in enumerate(expressions) if e.ref]
+        results = self.graph.evaluate_outputs([e for _, e in nonzeros], {**self.values, **inputs})
         out = np.zeros((len(u), len(expressions)))
-        for (i, _), value in zip(nonzero_expressions, results, strict=True):
+        for (i, _), value in zip(nonzeros, results, strict=True):
             out[:, i] = value
         return out
 
@@ -168,9 +157,8 @@ class LoopEquations(ShortRepr):
         scale = self.scale[places]
         for _ in range(THRESHOLDS.newton_iterations):
             f = self.compute_residuals(u)
-            if np.all(
-                np.max(np.abs(f), axis=1, initial=0.0) < THRESHOLDS.closed_residual * self.size
-            ):
+            largest = np.max(np.abs(f), axis=1, initial=0.0)
+            if np.all(largest < THRESHOLDS.closed_residual * self.size):
                 break
             J = self.compute_jacobians(u)[:, :, places] * scale
             step = -np.einsum("nij,nj->ni", np.linalg.pinv(J, rcond=1e-12), f)
@@ -207,9 +195,8 @@ def find_nearest_closed(loops: LoopEquations, start: np.ndarray) -> np.ndarray |
     closed_postures = closed_postures[loops.are_aligned(closed_postures)]
     if len(closed_postures) == 0:
         return None
-    closed_postures[:, angles] = start[angles] + wrap_to_pi(
-        closed_postures[:, angles] - start[angles]
-    )
+    turns = wrap_to_pi(closed_postures[:, angles] - start[angles])
+    closed_postures[:, angles] = start[angles] + turns
     # Mirrored postures may be equally near: digits that no rounding reaches decide then.
     near = np.round(np.sum(np.abs(closed_postures - start), axis=1), THRESHOLDS.posture_decimals)
     keys = np.round(closed_postures, THRESHOLDS.posture_decimals)
@@ -322,14 +309,13 @@ def compute_loop_frames(
     ends = [places.get(name) for name in (loop.frame, loop.meets)]
     sides = [[] if end is None else geometry.find_ancestors(end) for end in ends]
     root = next((k for k in sides[0] if k in sides[1]), None)
-    posed = compute_relative_poses(
-        geometry, frames, algebra, root, {k for k in ends if k is not None}
-    )
+    rows = {k for k in ends if k is not None}
+    posed = kinematics.compute_relative_poses(geometry, frames, algebra, root, rows)
     return posed[ends[0]], posed[ends[1]]
 
 
 def _subtract_origins(a: Frame, b: Frame) -> list[Expr]:
-    return plus(a[1], times(-1, b[1]))
+    return kinematics.plus(a[1], kinematics.times(-1, b[1]))
 
 
 def _compare_directions(a: Frame, b: Frame) -> list[Expr]:
@@ -609,9 +595,8 @@ def _find_moving_joints(
     rank = _compute_rank(inner, tolerance)
     share = np.max(np.abs(vt[rank:]), axis=0)
     free = geometry.robot.free_joints
-    names = [
-        free[k].name for k, s in zip(loops.solved, share, strict=True) if s > 0.1 * share.max()
-    ]
+    moving = share > 0.1 * share.max()
+    names = [free[k].name for k, moves in zip(loops.solved, moving, strict=True) if moves]
     return f"joint{'s' if len(names) > 1 else ''} " + ", ".join(names)
 
 

@@ -111,13 +111,11 @@ class MovingComposite(Composite):
         zero = 0 * other.M
         for i in range(3):
             for j in range(3):
-                moved = compute_steiner_term(p, dS, zero, i, j) + compute_steiner_term(
-                    dp, shifted, zero, i, j
-                )
+                moved = compute_steiner_term(p, dS, zero, i, j)
+                moved += compute_steiner_term(dp, shifted, zero, i, j)
                 self.J_rate[i][j] = self.J_rate[i][j] + turned[i][j] + moved
-        self.h = plus(
-            plus(self.h, frame.rotate_to_antecedent(h)), plus(cross(p, dS), cross(shifted, dp))
-        )
+        self.h = plus(self.h, frame.rotate_to_antecedent(h))
+        self.h = plus(self.h, plus(cross(p, dS), cross(shifted, dp)))
         self.MS_rate = plus(self.MS_rate, plus(dS, times(other.M, dp)))
         attach_labels("MSd", self.link, self.MS_rate), attach_labels("hc", self.link, self.h)
         attach_matrix_labels("Jd", self.link, self.J_rate)
@@ -263,10 +261,10 @@ def derive_coriolis_matrix(
         parameters: {column: value}; the others are 0.
     """
     qd, zero = model.get_inputs("qd"), model.graph.constant(0)
-    moved = model.derive_link_motions(qd, [zero] * len(qd), gravity=False)
+    motions = model.derive_link_motions(qd, [zero] * len(qd), gravity=False)
     rows = model.collect_link_parameters(parameters)
     tree = compute_coriolis_matrix(
-        model.geometry, model.frames, moved, model.expand_to_rows(qd), rows, zero
+        model.geometry, model.frames, motions, model.expand_to_rows(qd), rows, zero
     )
     half = [model.reduce_to_free(line) for line in zip(*tree, strict=True)]
     return [model.reduce_to_free([line[i] for line in half]) for i in range(len(qd))]
@@ -353,9 +351,8 @@ def derive_slotine_li_regressor(model: SymbolicModel) -> Entries:
     """
     qd, v, a = (model.get_inputs(kind) for kind in ("qd", "v", "a"))
     links = model.build_projection(model.derive_link_motions(qd, a, v=v))
-    return model.assemble_entries(
-        links, partial(derive_effect_entries, model, motion=("q", "v", "a"))
-    )
+    derive_effects = partial(derive_effect_entries, model, motion=("q", "v", "a"))
+    return model.assemble_entries(links, derive_effects)
 
 
 def derive_momentum_regressor(model: SymbolicModel) -> Entries:
@@ -497,9 +494,8 @@ def _place_on_row(model: SymbolicModel, link: LinkFrame | None) -> AxesOrigin:
 
 def derive_frame_pose(model: SymbolicModel, frame: BodyFrame) -> list[list[Expr]]:
     """Returns [R | p], 3 x 4: the axes in the columns of R, and the origin, in frame 0."""
-    at = compute_relative_poses(model.geometry, model.frames, model.algebra, None, {frame.row})[
-        frame.row
-    ]
+    row = frame.row
+    at = compute_relative_poses(model.geometry, model.frames, model.algebra, None, {row})[row]
     axes = [_rotate_vector(at, axis) for axis in frame.axes]
     origin = plus(at[1], _rotate_vector(at, frame.origin))
     return [[*(axis[i] for axis in axes), origin[i]] for i in range(3)]

@@ -17,16 +17,11 @@ from typing import Any
 import numpy as np
 
 from modeler.core.expression import Expression, get_precise_context, parse_expression
+from modeler.derivation import precise
 from modeler.derivation.assembly_modes import _build_model, resolve_home
 from modeler.derivation.closure import Closure
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.precise import (
-    Number,
-    convert_fraction,
-    convert_to_precise,
-    evaluate_precisely,
-    get_precise_functions,
-)
+from modeler.derivation.precise import Number, convert_to_precise
 from modeler.derivation.thresholds import THRESHOLDS
 from modeler.derivation.walks import compute_closed_motion, draw_closed_walk
 from modeler.robot import Robot
@@ -71,9 +66,8 @@ class RelationConstants:
             change = float(coefficients @ (moved - self.home)) / THRESHOLDS.perturbation
             for factor, size in self._enumerate_factors(name, angular):
                 if abs(size) > THRESHOLDS.perturbation:
-                    share = Fraction(change / size).limit_denominator(
-                        THRESHOLDS.max_constant_denominator
-                    )
+                    limit = THRESHOLDS.max_constant_denominator
+                    share = Fraction(change / size).limit_denominator(limit)
                     if abs(float(share) * size - change) < THRESHOLDS.slope_tolerance:
                         if share:
                             yield share, f"{name}{factor}"
@@ -180,7 +174,7 @@ class Prover:
         rows = []
         for _ in range(left + THRESHOLDS.spare_rows):
             at = {**geometry, **self._draw_posture(relations, rng, geometry)}
-            rows.append(evaluate_precisely(self.closure.graph, self.closure.equations, at))
+            rows.append(precise.evaluate_precisely(self.closure.graph, self.closure.equations, at))
         return _compute_rank(rows) <= left
 
     def _draw_symbols(self, rng: np.random.Generator, letters: bool) -> dict[str, Number]:
@@ -190,9 +184,8 @@ class Prover:
             if name in self.closure.values:
                 most = THRESHOLDS.symbol_change
                 change = float(rng.uniform(-most, most)) if letters else 0.0
-                known[name] = convert_to_precise(self.closure.values[name]) * (
-                    1 + convert_to_precise(change)
-                )
+                value = convert_to_precise(self.closure.values[name])
+                known[name] = value * (1 + convert_to_precise(change))
             else:
                 known[name] = _fold_precise(expression, known)
         return known
@@ -218,8 +211,8 @@ class Prover:
 
 
 def _fold_precise(expression: Expression, known: Mapping[str, Number]) -> Number:
-    functions, pi = get_precise_functions(), +get_precise_context().pi
-    return expression.fold(known, functions, pi, convert_fraction, functions["pow"])
+    functions, pi = precise.get_precise_functions(), +get_precise_context().pi
+    return expression.fold(known, functions, pi, precise.convert_fraction, functions["pow"])
 
 
 def _compute_rank(rows: Sequence[Sequence[Number]]) -> int:
@@ -306,9 +299,8 @@ def find_implied_relations(model: SymbolicModel) -> ImpliedRelations:
         proven = at_values if len(at_values) > len(general) else general
     proven_relations = {names[relation.pivot]: relation.expression for relation in proven}
     special = tuple(names[r.pivot] for r in proven if r not in general)
-    return ImpliedRelations(
-        proven_relations, special, tuple(name for name in seen if name not in proven_relations)
-    )
+    unproven = tuple(name for name in seen if name not in proven_relations)
+    return ImpliedRelations(proven_relations, special, unproven)
 
 
 def _find_vanishing_rows(model: SymbolicModel) -> list[tuple[np.ndarray, int]]:
@@ -360,10 +352,8 @@ def _build_terms(
         if k == pivot or abs(value) < THRESHOLDS.relation_rank:
             continue
         factor = Fraction(-value).limit_denominator(THRESHOLDS.max_ratio_denominator)
-        if (
-            abs(float(factor) + value) > THRESHOLDS.relation_rank
-            or free[k].is_revolute != free[pivot].is_revolute
-        ):
+        differs = free[k].is_revolute != free[pivot].is_revolute
+        if differs or abs(float(factor) + value) > THRESHOLDS.relation_rank:
             return None
         terms.append((factor, free[k].variable))
         exact[k] = -float(factor)

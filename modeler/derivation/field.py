@@ -41,17 +41,13 @@ def express_in_cosines(numerator: Terms, denominator: Terms, letters: Letters) -
     t**2/(1 + t**2) = (1 - c)/2, 1/(1 + t**2) = (1 + c)/2, t/(1 + t**2) = s/2. Sums are written
     expanded, with s**2 or c**2 eliminated, whichever leaves fewer terms.
     """
-    degrees = [
-        max((m[i] for part in (numerator, denominator) for m in part), default=0)
-        for i in range(len(letters))
-    ]
+    both = (numerator, denominator)
+    degrees = [max((m[i] for part in both for m in part), default=0) for i in range(len(letters))]
     used = [i for i, degree in enumerate(degrees) if degree]
     names = list(letters)
     target = _CosineRing({names[i]: letters[names[i]] for i in used})
     pairs = [(degrees[i] + 1) // 2 for i in used]
-    parts = [
-        {tuple(m[i] for i in used): c for m, c in part.items()} for part in (numerator, denominator)
-    ]
+    parts = [{tuple(m[i] for i in used): c for m, c in part.items()} for part in both]
     top, bottom = (target.convert_terms(part, pairs) for part in parts)
     top, bottom = top.cancel(bottom)
     return target.find_shortest_form(top) / target.find_shortest_form(bottom)
@@ -117,9 +113,8 @@ class _CosineRing:
 
     def _build_term(self, monomial: tuple[int, ...], coefficient: Any) -> sympy.Expr:
         number = sympy.Rational(int(coefficient.numerator), int(coefficient.denominator))
-        return sympy.Mul(
-            number, *(name**e for name, e in zip(self.names, monomial, strict=True) if e)
-        )
+        powers = zip(self.names, monomial, strict=True)
+        return sympy.Mul(number, *(name**e for name, e in powers if e))
 
 
 # Fractions of polynomials, by python-flint: sympy's own in many letters took 40 % of a derivation.
@@ -275,9 +270,8 @@ class ExactField:
         """The element as a sympy expression in the symbols, cosines and sines."""
         if not self._generator:
             return sympy.Rational(int(element.numerator), int(element.denominator))
-        return express_in_cosines(
-            _convert_terms(element.numer), _convert_terms(element.denom), self.letters
-        )
+        above, below = _convert_terms(element.numer), _convert_terms(element.denom)
+        return express_in_cosines(above, below, self.letters)
 
     def compute_residue(
         self, element: Element, values: Mapping[sympy.Expr, int], prime: int

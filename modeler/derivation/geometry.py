@@ -172,9 +172,8 @@ def resolve_relations(
                 f"the relation of joint {joint.name} is not linear; expected a sum such as q1 - q2"
             )
         constants[joint.name] = constant
-        forms.append(
-            {k: _convert_coefficient(c, numbers) for k, c in coefficients.items() if c != 0}
-        )
+        pairs = coefficients.items()
+        forms.append({k: _convert_coefficient(c, numbers) for k, c in pairs if c != 0})
     return tuple(forms), constants
 
 
@@ -306,13 +305,11 @@ def compute_placement(
         DerivationError: a cell is not finite.
     """
     numbers = robot.evaluate_symbols()
-    cells = _Cells(
-        _resolve_symbols(robot, numbers, False), numbers, partial(locate_written_cell, robot)
-    )
+    symbols = _resolve_symbols(robot, numbers, False)
+    cells = _Cells(symbols, numbers, partial(locate_written_cell, robot))
     position = tuple(fold_expression(cell, cells.symbols) for cell in frame.position)
-    return position, tuple(
-        cells.snap_angle(fold_expression(cell, cells.symbols)) for cell in frame.angles
-    )
+    folded = (fold_expression(cell, cells.symbols) for cell in frame.angles)
+    return position, tuple(cells.snap_angle(angle) for angle in folded)
 
 
 def _add_relation_constant(
@@ -460,9 +457,8 @@ def _count_terms(node: sympy.Basic, parts: list[int]) -> int:
         return prod(parts)
     if isinstance(node, sympy.Pow) and node.exp.is_Integer:
         n = abs(int(node.exp))
-        return (
-            comb(n + parts[0] - 1, n) if n <= THRESHOLDS.max_constant_terms or parts[0] == 1 else n
-        )
+        small = n <= THRESHOLDS.max_constant_terms or parts[0] == 1
+        return comb(n + parts[0] - 1, n) if small else n
     return 1
 
 

@@ -62,11 +62,8 @@ class Link(NamedTuple):
 # Values of expressions by steps that are listed once: closing loops asks hundreds of times.
 
 
-OPERATIONS: Mapping[str, Callable[..., Any]] = {
-    "add": operator.add,
-    "mul": operator.mul,
-    "div": operator.truediv,
-}
+_DIVIDE = {"div": operator.truediv}
+OPERATIONS: Mapping[str, Callable[..., Any]] = {"add": operator.add, "mul": operator.mul, **_DIVIDE}
 
 
 @dataclass(frozen=True)
@@ -86,9 +83,8 @@ class Arithmetic:
 
 
 _FLOATS = {name: getattr(np, name) for name in FUNCTIONS} | {"pow": np.power}
-FLOATS = Arithmetic(
-    float, lambda: np.pi, {**OPERATIONS, **_FLOATS, LAW: lambda table, *x: table(*x)}
-)
+_NUMERIC = {**OPERATIONS, **_FLOATS, LAW: lambda table, *x: table(*x)}
+FLOATS = Arithmetic(float, lambda: np.pi, _NUMERIC)
 
 _ALONE = -1
 """In place of the second argument of a function of one."""
@@ -331,9 +327,8 @@ class Graph:
             return c, -s % PRIME
         node = self.nodes[ref]
         if node.op == "add":
-            return _compose_angles(
-                self._evaluate_angle(node.args[0]), self._evaluate_angle(node.args[1])
-            )
+            first, second = (self._evaluate_angle(arg) for arg in node.args[:2])
+            return _compose_angles(first, second)
         multiple = node.op == "mul" and self._is_number(node.args[0])
         factor = self._get_number(node.args[0]) if multiple else 0
         if factor in range(1, THRESHOLDS.max_angle_multiple):  # a small whole number
@@ -461,9 +456,8 @@ class Graph:
 
     def count_operations(self, outputs: Sequence["Expr"]) -> tuple[int, int]:
         """Returns (additions, multiplications) per call; static parts are not counted."""
-        dynamic = [
-            self.nodes[i].op for i in self.find_reachable(outputs) if not self.nodes[i].static
-        ]
+        reachable = (self.nodes[i] for i in self.find_reachable(outputs))
+        dynamic = [node.op for node in reachable if not node.static]
         return dynamic.count("add"), dynamic.count("mul") + dynamic.count("div")
 
     def evaluate_outputs(self, outputs: Sequence["Expr"], values: Mapping[str, Any]) -> list[Any]:
@@ -617,21 +611,21 @@ def differentiate(
         return []
     graph = values[0].graph
     zero = graph.constant(0)
-    node_slopes: dict[int, Expr] = {0: zero}
+    slopes: dict[int, Expr] = {0: zero}
     for index in graph.find_reachable(values):
         node = graph.nodes[index]
         if node.op == "sym":
-            node_slopes[index] = direction.get(node.args[0], zero)
+            slopes[index] = direction.get(node.args[0], zero)
         elif node.static:
-            node_slopes[index] = zero
+            slopes[index] = zero
         elif (kinks or node.op in _EVERYWHERE) and not any(
-            node_slopes[abs(ref)].ref for ref in node.args
+            slopes[abs(ref)].ref for ref in node.args
         ):
-            node_slopes[index] = zero  # most nodes depend on few symbols
+            slopes[index] = zero  # most nodes depend on few symbols
         else:
-            node_slopes[index] = _differentiate_node(index, node, values[0], node_slopes, kinks)
-            _attach_label(graph, index, node_slopes[index], direction)
-    return [node_slopes[abs(v.ref)] if v.ref >= 0 else -node_slopes[-v.ref] for v in values]
+            slopes[index] = _differentiate_node(index, node, values[0], slopes, kinks)
+            _attach_label(graph, index, slopes[index], direction)
+    return [slopes[abs(v.ref)] if v.ref >= 0 else -slopes[-v.ref] for v in values]
 
 
 def _attach_label(graph: Graph, index: int, slope: Expr, direction: Mapping[str, Expr]) -> None:
@@ -644,11 +638,11 @@ def _attach_label(graph: Graph, index: int, slope: Expr, direction: Mapping[str,
 
 
 def _differentiate_node(
-    index: int, node: Node, like: Expr, node_slopes: Mapping[int, Expr], kinks: bool
+    index: int, node: Node, like: Expr, known: Mapping[int, Expr], kinks: bool
 ) -> Expr:
     graph = like.graph
     args = [Expr(graph, ref) for ref in node.args]
-    slopes = [node_slopes[abs(a.ref)] if a.ref >= 0 else -node_slopes[-a.ref] for a in args]
+    slopes = [known[abs(a.ref)] if a.ref >= 0 else -known[-a.ref] for a in args]
     if node.op == "add":
         return slopes[0] + slopes[1]
     if node.op == "mul":

@@ -95,9 +95,8 @@ class GraphAlgebra:
         """Returns the variable of a moving row ("q"), or its derivative ("qd", "qdd")."""
         assert row.index is not None
         form = self.geometry.forms[row.index]
-        return combine_linearly(
-            self.graph, form, {k: self.graph.symbol(f"{kind}[{k}]") for k in form}
-        )
+        symbols = {k: self.graph.symbol(f"{kind}[{k}]") for k in form}
+        return combine_linearly(self.graph, form, symbols)
 
     def cos_sin(self, row: GeometryRow) -> tuple[Expr, Expr]:
         """Returns cosine and sine of theta; right angles are taken out exactly."""
@@ -283,9 +282,8 @@ def compute_frame_gravity(
     base = [algebra.static(entry) for entry in geometry.gravity]
     frame_gravity: list[Vector] = []
     for row, frame in zip(geometry.rows, frames, strict=True):
-        frame_gravity.append(
-            frame.rotate_to_link(base if row.parent is None else frame_gravity[row.parent])
-        )
+        down = base if row.parent is None else frame_gravity[row.parent]
+        frame_gravity.append(frame.rotate_to_link(down))
     return frame_gravity
 
 
@@ -440,12 +438,10 @@ def _multiply_speeds(a: Scalar, b: Scalar, half_a: Scalar, half_b: Scalar) -> Sc
 
 def _build_motion(w: Vector, wd: Vector, vd: Vector, half: Vector, link: str) -> Motion:
     xx, yy, zz = (_multiply_speeds(w[i], w[i], half[i], half[i]) for i in range(3))
-    xy, xz, yz = (
-        _multiply_speeds(w[i], w[j], half[i], half[j]) for i, j in ((0, 1), (0, 2), (1, 2))
-    )
-    attach_labels(
-        "ww", link, (xx, yy, zz, xy, xz, yz), components=("xx", "yy", "zz", "xy", "xz", "yz")
-    )
+    pairs = ((0, 1), (0, 2), (1, 2))
+    xy, xz, yz = (_multiply_speeds(w[i], w[j], half[i], half[j]) for i, j in pairs)
+    components = ("xx", "yy", "zz", "xy", "xz", "yz")
+    attach_labels("ww", link, (xx, yy, zz, xy, xz, yz), components=components)
     U = [
         [-(yy + zz), xy - wd[2], xz + wd[1]],
         [xy + wd[2], -(xx + zz), yz - wd[0]],
@@ -630,9 +626,8 @@ def compute_inertia_matrix(
         parameters: per row, the inertial parameters that are not zero.
         zero: the algebra's zero.
     """
-    links = [
-        Composite(p, zero, row.joint.name) for p, row in zip(parameters, geometry.rows, strict=True)
-    ]
+    rows = zip(parameters, geometry.rows, strict=True)
+    links = [Composite(p, zero, row.joint.name) for p, row in rows]
     matrix = [[zero] * geometry.joint_count for _ in range(geometry.joint_count)]
     for k in reversed(range(len(links))):
         row = geometry.rows[k]

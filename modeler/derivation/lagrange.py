@@ -66,9 +66,8 @@ def _build_base_transforms(geometry: Geometry, q: ca.SX) -> list[ca.SX]:
         T = ca.SX.eye(4) if row.parent is None else transforms[row.parent]
         T = T @ _build_rotation(2, entries["gamma"]) @ _build_translation(2, entries["b"])
         T = T @ _build_rotation(0, entries["alpha"]) @ _build_translation(0, entries["d"])
-        transforms.append(
-            T @ _build_rotation(2, entries["theta"]) @ _build_translation(2, entries["r"])
-        )
+        turn, slide = _build_rotation(2, entries["theta"]), _build_translation(2, entries["r"])
+        transforms.append(T @ turn @ slide)
     return transforms
 
 

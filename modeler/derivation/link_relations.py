@@ -295,10 +295,10 @@ class _TreeStep:
             R = [[*line[:3], K.zero] for line in X[:3]]
             R.append([K.zero, K.zero, K.zero, K.one if m == 0 else K.zero])
             gravity += multiply_matrices(self.before.gravity, R, K.zero)
-        link_kernels = FrameKernels(
+        kernels = FrameKernels(
             reduce_rows(energy)[0], reduce_rows(twist)[0], reduce_rows(gravity)[0]
         )
-        return _propagate_kernels(link_kernels, self.constant, K)
+        return _propagate_kernels(kernels, self.constant, K)
 
     def _pad_rows(self, rows: Matrix) -> Matrix:
         return [[*line, self.K.zero, self.K.zero] for line in rows]
@@ -425,9 +425,8 @@ def derive_closure_relations(
         raise CoefficientTooLarge(
             f"relations around loops are among more than {THRESHOLDS.max_loop_functions} functions"
         )
-    return find_dependent_columns(
-        geometry, products.compute_rows, K, [*first, *order], set(order), seed
-    )
+    wanted = [*first, *order]
+    return find_dependent_columns(geometry, products.compute_rows, K, wanted, set(order), seed)
 
 
 class _ClosureProducts:

@@ -11,24 +11,11 @@ from typing import Any, Self, TypeAlias, TypeGuard
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError
 from modeler.core.expression import FUNCTIONS, LAW, Expression
+from modeler.derivation import kinematics
 from modeler.derivation.closure import Closure, derive_closure
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.graph import Expr, Graph, Label, combine_linearly, differentiate
-from modeler.derivation.kinematics import (
-    GraphAlgebra,
-    Motion,
-    MotionState,
-    Pose,
-    Screw,
-    compute_base_poses,
-    compute_free_screws,
-    compute_inertia_matrix,
-    compute_inverse_dynamics,
-    compute_poses,
-    compute_wrench_columns,
-    project_wrench,
-    propagate_motions,
-)
+from modeler.derivation.kinematics import GraphAlgebra, Motion, MotionState, Pose, Screw
 from modeler.effects import ENCODERS, MOTION, NOISE, TURN, EffectTarget, EnergyBlock, InternalState
 from modeler.robot import Joint, Robot
 
@@ -257,9 +244,8 @@ def map_column_signals(column: ShaftColumn) -> dict[str, Signal]:
             raise DerivationError(f"{column.name}: its inner state has no form in C")
         shapes, follows = column.nonlinear_parameters, memory.lagged_input
         shape_items = () if follows is None else tuple(sorted(shapes.items()))
-        signals["z"] = Signal(
-            memory.kind, column.row, shapes[memory.parameter], follows, shape_items
-        )
+        shape = shapes[memory.parameter]
+        signals["z"] = Signal(memory.kind, column.row, shape, follows, shape_items)
     return signals
 
 
@@ -311,7 +297,7 @@ class SymbolicModel(ShortRepr):
     @cached_property
     def frames(self) -> list[Pose]:
         """Returns pose of every row in its antecedent."""
-        return compute_poses(self.geometry, self.algebra)
+        return kinematics.compute_poses(self.geometry, self.algebra)
 
     def get_inputs(self, kind: str) -> list[Expr]:
         """Returns the symbols of `kind` "q", "qd", "qdd", "v" or "a", of the free variables."""
@@ -353,7 +339,7 @@ class SymbolicModel(ShortRepr):
         down = [self.algebra.static(x) if gravity else zero for x in self.geometry.gravity]
         second = None if v is None else self.expand_to_rows(v)
         state = MotionState(self.expand_to_rows(qd), self.expand_to_rows(qdd), down, second)
-        return propagate_motions(self.geometry, self.frames, state, self.algebra)
+        return kinematics.propagate_motions(self.geometry, self.frames, state, self.algebra)
 
     def expand_to_rows(self, free: Sequence[Expr]) -> list[Expr]:
         """Returns speeds of the moving rows from those of the free variables: F u."""
@@ -367,21 +353,20 @@ class SymbolicModel(ShortRepr):
         projected on every joint below; effect columns from their definition.
         """
         moved = self.derive_link_motions(self.get_inputs("qd"), self.get_inputs("qdd"))
-        entries = self.assemble_entries(
-            self.build_projection(moved), partial(derive_effect_entries, self)
-        )
+        derive_effects = partial(derive_effect_entries, self)
+        entries = self.assemble_entries(self.build_projection(moved), derive_effects)
         self._labels.update(self.graph.labels)
         return entries
 
     def build_projection(self, moved: Sequence[Motion]) -> Callable[[LinkColumn], dict[int, Expr]]:
         """Returns what gives {free variable: torque} per unit of a link's parameter."""
         free_screws = self.free_screws
-        columns = [compute_wrench_columns(motion) for motion in moved]
+        columns = [kinematics.compute_wrench_columns(motion) for motion in moved]
 
         def project_part(part: LinkColumn) -> dict[int, Expr]:
             force, moment = columns[part.row][part.prefix]
             screws = free_screws[part.row].items()
-            return {k: project_wrench(screw, force, moment) for k, screw in screws}
+            return {k: kinematics.project_wrench(screw, force, moment) for k, screw in screws}
 
         return project_part
 
@@ -433,7 +418,7 @@ class SymbolicModel(ShortRepr):
     @cached_property
     def free_screws(self) -> list[dict[int, Screw]]:
         """Returns for every row the screw of each free variable that moves it."""
-        return compute_free_screws(self.geometry, self.frames, self.algebra)
+        return kinematics.compute_free_screws(self.geometry, self.frames, self.algebra)
 
     @cached_property
     def signals(self) -> tuple[Signal, ...]:
@@ -486,7 +471,9 @@ class SymbolicModel(ShortRepr):
         if links:
             moved = self.derive_link_motions(qd, qdd, gravity)
             rows = self.collect_link_parameters(parameters)
-            torques = compute_inverse_dynamics(self.geometry, self.frames, moved, rows, zero)
+            torques = kinematics.compute_inverse_dynamics(
+                self.geometry, self.frames, moved, rows, zero
+            )
             tau = self.reduce_to_free(torques)
         for place in parameters if effects else ():
             for part in self.columns[place].parts:
@@ -508,7 +495,7 @@ class SymbolicModel(ShortRepr):
         """Returns M(q) of the free variables, rotor inertias of the effects included."""
         zero = self.graph.constant(0)
         rows = self.collect_link_parameters(parameters)
-        tree = compute_inertia_matrix(self.geometry, self.frames, rows, zero)
+        tree = kinematics.compute_inertia_matrix(self.geometry, self.frames, rows, zero)
         half = [self.reduce_to_free(line) for line in tree]
         matrix = [self.reduce_to_free([line[k] for line in half]) for k in range(len(half[0]))]
         for i, j, value in self.enumerate_rotor_inertias(parameters):
@@ -531,7 +518,7 @@ class SymbolicModel(ShortRepr):
 
         The columns of R are the frame's axes x, y, z in frame 0; p is its origin, m.
         """
-        base_frames = compute_base_poses(self.geometry, self.frames, self.algebra)
+        base_frames = kinematics.compute_base_poses(self.geometry, self.frames, self.algebra)
         return [
             [[*(axis[i] for axis in axes), origin[i]] for i in range(3)]
             for row, (axes, origin) in zip(self.geometry.rows, base_frames, strict=True)
@@ -567,9 +554,8 @@ def _evaluate_equation(
     """The equation of the column on its shaft."""
     signals = map_column_signals(column)
     read = {name: get_signal_symbol(model, signal) for name, signal in signals.items()}
-    return _evaluate_on_shaft(
-        model, column.equation, column.shaft, column.nonlinear_parameters, read, motion
-    )
+    shaft, values = column.shaft, column.nonlinear_parameters
+    return _evaluate_on_shaft(model, column.equation, shaft, values, read, motion)
 
 
 def get_signal_symbol(model: SymbolicModel, signal: Signal) -> Expr:
@@ -583,9 +569,8 @@ def evaluate_followed(model: SymbolicModel, signal: Signal, now: Mapping[Signal,
     assert index is not None and signal.follows is not None
     read = {name: now[other] for name, other in signal.input_signals.items()}
     shaft = model.geometry.forms[index]
-    return _evaluate_on_shaft(
-        model, signal.follows, shaft, dict(signal.nonlinear_parameters), read, _MEASURED
-    )
+    values = dict(signal.nonlinear_parameters)
+    return _evaluate_on_shaft(model, signal.follows, shaft, values, read, _MEASURED)
 
 
 def _evaluate_on_shaft(

@@ -101,9 +101,8 @@ class ModularState:
             if row.index is not None and row.joint.is_revolute:
                 for k, coefficient in geometry.forms[row.index].items():
                     self._scales[k] = lcm(self._scales[k], coefficient.denominator)
-        self._units = [
-            compute_circle_point(t, prime) for t in draw_residues(rng, (count, points), prime)
-        ]
+        draws = draw_residues(rng, (count, points), prime)
+        self._units = [compute_circle_point(t, prime) for t in draws]
         self.gravity = np.stack([self.value(entry) for entry in geometry.gravity])
         # R, p, angular and linear velocity of every row's frame, in the base frame.
         zero, one = (fill_residues(n, points, prime) for n in (0, 1))
@@ -358,9 +357,8 @@ def _fit_quotient(
     terms = len(above) + len(below)
     if terms > THRESHOLDS.max_quotient_terms:
         raise CoefficientTooLarge(f"a coefficient has up to {terms} terms")
-    weights = _fit_coefficients(
-        function, probes.draw_moved_points(letters, terms), letters, above, below
-    )
+    moved = probes.draw_moved_points(letters, terms)
+    weights = _fit_coefficients(function, moved, letters, above, below)
     if weights is None:
         raise CoefficientTooLarge("a coefficient is not a quotient of short polynomials")
     numbers = [reconstruct_rational(weight, LARGE) for weight in weights]
@@ -540,9 +538,7 @@ class _CoefficientSampler:
         self.geometry, self.K, self.supports, self.seed = geometry, K, supports, seed
         self.functions = functions
         self.blocks = _partition_blocks(supports)
-        self.used = sorted(
-            {c for kept_columns, dependent in self.blocks for c in (*kept_columns, *dependent)}
-        )
+        self.used = sorted({c for both in self.blocks for columns in both for c in columns})
         self.place = {column: i for i, column in enumerate(self.used)}
         largest = max((len(kept_columns) for kept_columns, _ in self.blocks), default=0)
         self.points = largest + THRESHOLDS.extra_points
@@ -575,9 +571,8 @@ class _CoefficientSampler:
                 places = [self.place[column] for column in (*kept_columns, *dependent)]
                 count = len(kept_columns) + THRESHOLDS.extra_points
                 part = rows[:, i, :count, places].reshape(len(places), -1).T
-                self._known[geometry] |= self._solve_coefficients(
-                    part.copy(), kept_columns, dependent
-                )
+                solved = self._solve_coefficients(part.copy(), kept_columns, dependent)
+                self._known[geometry] |= solved
 
     def _solve_coefficients(
         self, matrix: np.ndarray, kept_columns: Sequence[int], dependent: Sequence[int]
@@ -588,11 +583,8 @@ class _CoefficientSampler:
         coefficients = {}
         for column, values in zip(dependent, matrix[:, size:].T, strict=True):
             combination = {c for c, value in zip(kept_columns, values, strict=False) if value}
-            if (
-                len(pivots) < size
-                or np.any(values[size:])
-                or combination != {*self.supports[column]}
-            ):
+            supported = len(pivots) == size and combination == {*self.supports[column]}
+            if not supported or np.any(values[size:]):
                 raise CoefficientTooLarge(
                     "what depends on what at one geometry does not at another"
                 )

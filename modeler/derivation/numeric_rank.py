@@ -9,17 +9,10 @@ from typing import Any
 import numpy as np
 import sympy
 
+from modeler.derivation import precise
 from modeler.derivation.closure import select_spanning_rows
 from modeler.derivation.model import SymbolicModel
-from modeler.derivation.precise import (
-    Ball,
-    build_ball,
-    build_ball_function,
-    enclose_symbols,
-    is_proven_regular,
-    is_surely_zero,
-    load_flint,
-)
+from modeler.derivation.precise import Ball, build_ball, build_ball_function, load_flint
 from modeler.derivation.relations import (
     BallRank,
     BaseParameter,
@@ -112,10 +105,8 @@ def draw_sample(model: SymbolicModel, samples: int, seed: int) -> Sample:
     wrong = rng.choice([-error, error], (len(walk.postures), len(closure.equations)))
     rounded = walk.postures.copy()
     rounded[:, list(closure.solved)] += closure.solve_passive(walk.postures, wrong)
-    phi, other = (
-        evaluate_regressor(model, expand_states(model, u, qd, qdd))
-        for u in (walk.postures, rounded)
-    )
+    postures = (walk.postures, rounded)
+    phi, other = (evaluate_regressor(model, expand_states(model, u, qd, qdd)) for u in postures)
     lengths = np.linalg.norm(phi.reshape(-1, phi.shape[2]), axis=0)
     scale = np.where(lengths > THRESHOLDS.zero_column * lengths.max(initial=0.0), lengths, np.inf)
     error = np.linalg.norm((other - phi) / scale, axis=(1, 2))
@@ -217,9 +208,8 @@ def derive_numeric_grouping(
     lengths = np.linalg.norm(W, axis=0)
     nothing = THRESHOLDS.zero_column * lengths.max(initial=0.0)
     absent = {i for i, length in enumerate(lengths) if length <= nothing}
-    order = [
-        i for i in sort_by_priority(model.names, model.robot.priority_parameters) if i not in absent
-    ]
+    order = sort_by_priority(model.names, model.robot.priority_parameters)
+    order = [i for i in order if i not in absent]
     kept_columns, relations, bound = _select_first_columns(W, lengths, order, tolerance)
     balls = enclosed(kept_columns, list(relations))
     if balls is not None:
@@ -434,9 +424,8 @@ class Enclosures:
         enough = build_ball(2.0 ** -(self.bits * 3 // 4))
         for _ in range(THRESHOLDS.enclosure_iterations):
             step = (Y * _build_column(self.equations(_collect_inputs(q=q)))).mid()
-            q = _replace_entries(
-                q, solved, [(q[k] - step[i, 0]).mid() for i, k in enumerate(solved)]
-            )
+            middles = [(q[k] - step[i, 0]).mid() for i, k in enumerate(solved)]
+            q = _replace_entries(q, solved, middles)
             if all(abs(x) < enough for x in step.entries()):
                 return q
         raise EnclosureError("the loops do not close at a posture")
@@ -474,11 +463,9 @@ def _collect_inputs(**kinds: Sequence[Ball]) -> dict[str, Ball]:
     return {f"{kind}[{k}]": x for kind, values in kinds.items() for k, x in enumerate(values)}
 
 
-def _replace_entries(
-    q: Sequence[Ball], places: Sequence[int], values: Sequence[Ball]
-) -> list[Ball]:
+def _replace_entries(q: Sequence[Ball], at: Sequence[int], values: Sequence[Ball]) -> list[Ball]:
     changed = list(q)
-    for k, value in zip(places, values, strict=True):
+    for k, value in zip(at, values, strict=True):
         changed[k] = value
     return changed
 
@@ -492,9 +479,8 @@ def _build_column(values: Sequence[Ball]) -> Ball:
 
 
 def _multiply_vector(matrix: Sequence[Sequence[Ball]], vector: Sequence[Ball]) -> list[Ball]:
-    return [
-        sum((x * y for x, y in zip(line, vector, strict=True)), build_ball(0)) for line in matrix
-    ]
+    rows = (zip(line, vector, strict=True) for line in matrix)
+    return [sum((x * y for x, y in row), build_ball(0)) for row in rows]
 
 
 # A lower bound of the rank of the torques, proven in ball arithmetic.
@@ -517,7 +503,7 @@ def prove_rank(
         seed: of the states.
     """
     over = model.closure.others if model.closure else ()
-    count = sum(not is_surely_zero(equation, model.robot) for equation in over)
+    count = sum(not precise.is_surely_zero(equation, model.robot) for equation in over)
     if count:
         why = f"{count} closure equations seem to follow from the others, unproven"
         return SampledRank(len(kept_columns), seed, why)
@@ -532,7 +518,7 @@ def prove_rank(
             except EnclosureError as error:
                 why = str(error)
                 continue
-            if is_proven_regular(matrix):
+            if precise.is_proven_regular(matrix):
                 states, rows = choice.collect_exact_states(), choice.locate_rows()
                 return BallRank(len(kept_columns), bits, seed, states, rows)
             why = f"the balls of a minor of {len(kept_columns)} rows hold a singular matrix"
@@ -589,9 +575,8 @@ class _RowSelection:
         count = THRESHOLDS.spare_states + -(-3 * len(kept_columns) // (2 * max(1, width)))
         self.u = self._draw_postures(sample, count, rng)
         shape = (2, len(self.u), width)
-        self.qd, self.qdd = (
-            rng.integers(1, THRESHOLDS.speed_eighths + 1, shape) * rng.choice([-1, 1], shape) / 8
-        )
+        speeds = rng.integers(1, THRESHOLDS.speed_eighths + 1, shape)
+        self.qd, self.qdd = speeds * rng.choice([-1, 1], shape) / 8
         self.signals = draw_signal_values(model, len(self.u))
         states: States = self.u, self.qd, self.qdd
         if self.closure is not None:
@@ -608,9 +593,8 @@ class _RowSelection:
             drawn = rng.uniform(-reach, reach, (count, len(reach)))
             return np.asarray(np.round(drawn, THRESHOLDS.enclosed_decimals))
         assert self.closure is not None
-        u = self.closure.close_loops(
-            np.round(sample.walk.postures[:count], THRESHOLDS.enclosed_decimals)
-        )
+        rounded = np.round(sample.walk.postures[:count], THRESHOLDS.enclosed_decimals)
+        u = self.closure.close_loops(rounded)
         return np.asarray(u[np.all(np.isfinite(u), axis=1)])
 
     @property
@@ -646,7 +630,7 @@ class _RowSelection:
             NotEnclosed: a posture is not proven to exist.
         """
         model = self.model
-        symbols = enclose_symbols(model.robot)
+        symbols = precise.enclose_symbols(model.robot)
         enclosures = Enclosures(model, symbols)
         place = {column: i for i, column in enumerate(columns)}
         entries = {at: x for at, x in model.regressor.items() if at[1] in place}

@@ -42,9 +42,8 @@ def enclose_symbols(robot: Robot) -> dict[str, Ball]:
     """Returns the value of every symbol of a robot, by name, as its expression says it."""
     known: dict[str, Ball] = {}
     for name, expression in robot.symbols.items():
-        known[name] = expression.fold(
-            known, _CALLS, load_flint().arb.pi(), build_ball, operator.pow
-        )
+        pi = load_flint().arb.pi()
+        known[name] = expression.fold(known, _CALLS, pi, build_ball, operator.pow)
     return known
 
 

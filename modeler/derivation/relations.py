@@ -426,13 +426,8 @@ def _serialise_proof(proof: Proof) -> dict[str, Any]:
     else:
         states = [asdict(state) | {"signals": list(state.signals)} for state in certificate.states]
         rows = [list(row) for row in certificate.rows]
-        independence = {
-            "kind": "balls",
-            **independence,
-            "bits": certificate.bits,
-            "states": states,
-            "rows": rows,
-        }
+        independence = {"kind": "balls", **independence, "bits": certificate.bits}
+        independence |= {"states": states, "rows": rows}
     return {
         "statement": proof.statement,
         "prime": modular and modular.prime,
@@ -483,10 +478,8 @@ def _format_independence(certificate: Certificate) -> str:
             f"{certificate.rank} rows at {len(certificate.states)} exact states, seed "
             f"{certificate.seed}; --json lists them)"
         )
-    return (
-        f"rank {certificate.rank} in floating point only (seed {certificate.seed}): "
-        f"{certificate.why}"
-    )
+    seed = f"(seed {certificate.seed})"
+    return f"rank {certificate.rank} in floating point only {seed}: {certificate.why}"
 
 
 def _format_sampling(sampling: Sampling, seed: int) -> str:
@@ -516,9 +509,8 @@ def _build_product(size: sympy.Expr, term: Term, halves: bool) -> tuple[Formula,
     top, bottom = _separate_fraction(size, halves)
     if bottom.free_symbols:
         below = build_expression_formula(bottom, halves)
-        return (
-            Formula("fraction", parts=(make_row(*_build_prefix(top, halves), parameter), below)),
-        )
+        above = make_row(*_build_prefix(top, halves), parameter)
+        return (Formula("fraction", parts=(above, below)),)
     return (*_build_prefix(size, halves), parameter)
 
 
@@ -554,11 +546,9 @@ def build_expression_formula(expression: sympy.Expr, halves: bool = False) -> Fo
     if expression.is_Number:
         sign = "-" if expression.is_negative else ""
         text = f"{sign}{digits}" if digits else _TextPrinter(halves).doprint(expression)
-        return (
-            make_row(make_operator("-"), make_number(text[1:]))
-            if text.startswith("-")
-            else make_number(text)
-        )
+        if text.startswith("-"):
+            return make_row(make_operator("-"), make_number(text[1:]))
+        return make_number(text)
     if expression.is_Mul:
         sign, size = separate_sign(expression)
         factors = size.as_ordered_factors() if size.is_Mul else [size]

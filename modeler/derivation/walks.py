@@ -47,10 +47,8 @@ def _close_postures(loops: LoopEquations, u: np.ndarray) -> np.ndarray:
         u[:, solved] -= loops.solve_passive(u, loops.compute_residuals(u))
     left = loops.compute_openness(u)
     far = np.abs(u - start) / loops.scale
-    return u[
-        (left < THRESHOLDS.closed_residual * loops.size)
-        & (np.max(far, axis=1) < THRESHOLDS.max_walk_step)
-    ]
+    is_closed = left < THRESHOLDS.closed_residual * loops.size
+    return u[is_closed & (np.max(far, axis=1) < THRESHOLDS.max_walk_step)]
 
 
 class _Walkers:
@@ -104,9 +102,8 @@ class _Walkers:
         done = stuck | np.all(left < 1e-9, axis=1)
         # Most joints stay: one at its end must not hold up the others.
         goes = self.rng.random((int(np.sum(done)), len(self.actuated)))
-        stays = (goes > THRESHOLDS.moving_share) & (
-            goes > goes.min(axis=1, keepdims=True, initial=1.0)
-        )
+        most = goes.min(axis=1, keepdims=True, initial=1.0)
+        stays = (goes > THRESHOLDS.moving_share) & (goes > most)
         here = self.u[done][:, self.actuated]
         self.target[done] = np.where(stays, here, self._draw_targets(len(here)))
         self.pace[done] = 0.25
@@ -115,12 +112,8 @@ class _Walkers:
         """dq towards the target, and the du_s that keeps the loops closed; in rad and m."""
         way = (self.target - self.u[:, self.actuated]) / self.scale[self.actuated]
         longest = np.max(np.abs(way), axis=1)
-        dq = (
-            way
-            * np.minimum(1.0, THRESHOLDS.max_walk_step * self.pace / np.maximum(longest, 1e-300))[
-                :, None
-            ]
-        )
+        most = THRESHOLDS.max_walk_step * self.pace / np.maximum(longest, 1e-300)
+        dq = way * np.minimum(1.0, most)[:, None]
         along = np.einsum("nij,nj->ni", J[:, :, self.actuated], dq)
         both = np.stack([f, along], axis=2)
         back = -np.linalg.solve(J[:, :, self.solved], both)
@@ -206,9 +199,8 @@ class Linkage(ShortRepr):
             )
         )
         lines = np.einsum("nri,nrj->nrij", z, z)[:, :, *np.triu_indices(3)]
-        return np.concatenate([points / self.loops.size, lines], axis=2).reshape(
-            len(u), 9 * len(self.frames)
-        )
+        signs = np.concatenate([points / self.loops.size, lines], axis=2)
+        return signs.reshape(len(u), 9 * len(self.frames))
 
     def compute_distances(self, u: np.ndarray, other: np.ndarray) -> np.ndarray:
         """Returns (n, u) distances of joints, rad and robot sizes, the shorter way; NaN as 0."""
@@ -274,21 +266,17 @@ def draw_closed_walk(
         reach = reach if k in closure.actuated else np.inf
         low, high = (limits.lower, limits.upper) if limits else (at - reach, at + reach)
         ranges.append((min(low, at), max(high, at)))
-    walkers, home = (
-        max(THRESHOLDS.walkers, -(-2 * samples // THRESHOLDS.walk_steps)),
-        np.array(closure.home),
-    )
+    walkers = max(THRESHOLDS.walkers, -(-2 * samples // THRESHOLDS.walk_steps))
+    home = np.array(closure.home)
     with np.errstate(all="ignore"):  # steps that go astray are taken back
         path = _Walkers(closure, np.tile(home, (walkers, 1)), np.array(ranges), rng)
         reached = np.concatenate([path.advance_walkers() for _ in range(THRESHOLDS.walk_steps)])
         rng.shuffle(reached)
-        closed_postures = _close_postures(
-            closure, np.concatenate([reached[: 3 * samples], home[None]])
-        )
+        both = np.concatenate([reached[: 3 * samples], home[None]])
+        closed_postures = _close_postures(closure, both)
     distance = closure.compute_singularity_distance(closed_postures)
-    far = np.flatnonzero(
-        distance >= min(max(THRESHOLDS.min_walk_distance, share * distance[-1]), distance[-1])
-    )
+    least = max(THRESHOLDS.min_walk_distance, share * distance[-1])
+    far = np.flatnonzero(distance >= min(least, distance[-1]))
     chosen = np.resize(far[::-1], samples)  # home first; few of them come again
     return Walk(closed_postures[chosen], float(distance[chosen].min()))
 

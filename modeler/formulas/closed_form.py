@@ -102,9 +102,8 @@ def compute_normal_screws(
 ) -> list[dict[int, Screw]]:
     """Returns for every row, the screw of each free variable that moves it, in normal form."""
     row_screws: list[dict[int, Screw]] = []
-    for total in compute_free_screws(
-        geometry, frames, ring, lambda c: QQ(c.numerator, c.denominator)
-    ):
+    screws = compute_free_screws(geometry, frames, ring, lambda c: QQ(c.numerator, c.denominator))
+    for total in screws:
         pairs = ((k, [normalise_vector(v, ring) for v in (x.e, x.m)]) for k, x in total.items())
         normal = {k: Screw(*pair) for k, pair in pairs}
         row_screws.append({k: x for k, x in normal.items() if any(x.e) or any(x.m)})
@@ -355,9 +354,8 @@ def _build_function(
         entry = _keep_sine_squares(entry, algebra, turning)
     terms = collect_monomials(entry, algebra)
     order = sorted(terms, reverse=True)
-    return ConfigurationFunction(
-        name, KINDS[letter], at, {exponents: terms[exponents] for exponents in order}
-    )
+    terms = {exponents: terms[exponents] for exponents in order}
+    return ConfigurationFunction(name, KINDS[letter], at, terms)
 
 
 def collect_monomials(entry: Form, algebra: TrigRing) -> dict[Exponents, dict[int, Poly]]:

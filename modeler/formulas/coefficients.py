@@ -18,13 +18,8 @@ from modeler.derivation import (
     evaluate_modulo,
     find_linear_relations,
 )
-from modeler.formulas.closed_form import (
-    ClosedForm,
-    ConfigurationFunction,
-    Exponents,
-    Form,
-    derive_closed_form,
-)
+from modeler.formulas import closed_form
+from modeler.formulas.closed_form import ClosedForm, ConfigurationFunction, Exponents, Form
 from modeler.formulas.function_sheet import FormulaForm, format_sheet
 from modeler.formulas.physical import (
     Identifiability,
@@ -127,7 +122,7 @@ def build_coefficient_table(model: SymbolicModel, base: BaseParameters) -> Coeff
         RobotError: `[terms]` or `[physical]` of the robot file is wrong.
     """
     printed = read_printed_terms(model.robot)
-    closed = derive_closed_form(model)
+    closed = closed_form.derive_closed_form(model)
     physical = derive_physical_parameters(model, closed.algebra)
     motion = closed.algebra.names[: closed.algebra.moving]
     numbered = [(k, parameter.column) for k, parameter in enumerate(base.parameters)]
@@ -136,16 +131,14 @@ def build_coefficient_table(model: SymbolicModel, base: BaseParameters) -> Coeff
         form = closed.by_name[function].terms[at]
         grouped = {k: form[column] for k, column in numbered if column in form}
         text = format_monomial(at, motion)
-        listed.append(
-            Coefficient(name, function, at, text, form, grouped, physical.convert_form(form))
-        )
+        letters = physical.convert_form(form)
+        listed.append(Coefficient(name, function, at, text, form, grouped, letters))
     coefficients = tuple(listed)
     relations = find_linear_relations({c.name: flatten_form(c.standard) for c in coefficients})
     by_name = {c.name: c for c in coefficients}
     known = _find_known_geometry(coefficients, closed.algebra)
-    seen = analyse_identifiability(
-        physical, [by_name[name].physical for name in relations.independent]
-    )
+    polys = [by_name[name].physical for name in relations.independent]
+    seen = analyse_identifiability(physical, polys)
     names, ring = [parameter.name for parameter in base.parameters], closed.algebra.static_ring
     of_base = build_base_map(known, [by_name[name].base for name in known], names, ring)
     return CoefficientTable(
@@ -155,10 +148,8 @@ def build_coefficient_table(model: SymbolicModel, base: BaseParameters) -> Coeff
 
 def select_independent_coefficients(table: CoefficientTable) -> CoefficientTable:
     """Returns the table with those coefficients only from which the others follow over Q."""
-    independent_names = set(table.relations.independent)
-    return replace(
-        table, coefficients=tuple(c for c in table.coefficients if c.name in independent_names)
-    )
+    names = set(table.relations.independent)
+    return replace(table, coefficients=tuple(c for c in table.coefficients if c.name in names))
 
 
 def flatten_form(form: Form) -> dict[Any, Any]:
@@ -170,9 +161,8 @@ def _assign_names(
     closed: ClosedForm, printed: PrintedTerms
 ) -> list[tuple[str, tuple[str, Exponents]]]:
     """Names in order of the functions; monomials that the paper lacks at the end."""
-    orders = {
-        name: _read_monomials(closed, name, cells) for name, cells in printed.monomials.items()
-    }
+    monomials = printed.monomials.items()
+    orders = {name: _read_monomials(closed, name, cells) for name, cells in monomials}
     counts = dict.fromkeys(PREFIX, 0)
     named, missing = [], []
     for function in closed.functions:

@@ -130,9 +130,7 @@ class SheetWriter:
             lines = self._arrange_definitions(names)
         generated = [line.name for line in lines if line.name in self._generated]
         self._taken -= self._generated
-        new = {
-            name: self._generate_name() for name in generated
-        }  # in the order in which they are read
+        new = {name: self._generate_name() for name in generated}
         lines = tuple(replace(line, name=new.get(line.name, line.name)) for line in lines)
         names = {node: (new.get(name, name), sign) for node, (name, sign) in names.items()}
         return Sheet(self.graph, self.letters, names, lines, trig, angles, self.halves)
@@ -294,9 +292,8 @@ def _collect_angle_terms(
     """The terms of an angle: (sign, letters)."""
     node, sign = graph.nodes[abs(ref)], 1 if ref > 0 else -1
     if node.op == "add":
-        return [
-            (sign * s, t) for arg in node.args for s, t in _collect_angle_terms(graph, arg, letters)
-        ]
+        parts = (part for arg in node.args for part in _collect_angle_terms(graph, arg, letters))
+        return [(sign * s, t) for s, t in parts]
     if node.op == "sym":
         return [(sign, letters.get(node.args[0], node.args[0]).removeprefix("q"))]
     if node.op == "mul" and graph.nodes[abs(node.args[0])].op == "num":
@@ -373,9 +370,7 @@ class SheetPrinter:
         """Returns the right side of a definition."""
         node = abs(definition.ref)
         named_value = self.sheet.names.get(node)
-        if (
-            named_value is not None and named_value[0] != definition.name
-        ):  # the same as another quantity
+        if named_value is not None and named_value[0] != definition.name:
             return self.format_sum(definition.ref)
         return self.format_sum(definition.ref, opened=node)
 
@@ -417,9 +412,8 @@ class SheetPrinter:
         if node == 0:
             return []
         if operation.op == "add" and (node == opened or node not in self.sheet.names):
-            return [
-                term for arg in operation.args for term in self._collect_terms(arg, number, opened)
-            ]
+            terms = (self._collect_terms(arg, number, opened) for arg in operation.args)
+            return [term for part in terms for term in part]
         value, factors = self._collect_factors(node, opened)
         return [(number * value, tuple(factors))]
 
@@ -438,9 +432,8 @@ class SheetPrinter:
         if operation.op == "div":
             return self._format_quotient(operation.args[0], operation.args[1])
         if operation.op == "add":
-            return Fraction(1), [
-                (_BRACKET, self.style.add_brackets(self.format_sum(node, opened)), node)
-            ]
+            text = self.style.add_brackets(self.format_sum(node, opened))
+            return Fraction(1), [(_BRACKET, text, node)]
         rank = _LETTER if operation.static else _TRIG if node in self.sheet.trig else _NAMED
         if operation.op == "sym" and operation.args[0].startswith(VECTOR):
             rank = _UNIT
@@ -449,8 +442,8 @@ class SheetPrinter:
     def _format_quotient(self, above: int, below: int) -> tuple[Fraction, list[Factor]]:
         """A fraction with the number in front of its numerator taken out."""
         number = Fraction(1 if above > 0 else -1)
-        is_sum = self.sheet.graph.nodes[abs(above)].op == "add" and (
-            abs(above) not in self.sheet.names
+        is_sum = (
+            self.sheet.graph.nodes[abs(above)].op == "add" and abs(above) not in self.sheet.names
         )
         if is_sum:
             text = self.format_sum(abs(above))
@@ -570,13 +563,13 @@ def _format_latex(sheet: Sheet, heading: Callable[[str], str]) -> str:
     ]
     blocks = {"sines and cosines": angles}
     for definition in sheet.definitions:
-        line = DisplayedEquation(
-            printer.format_letter(definition.name), (printer.format_value(definition),)
-        )
+        values = (printer.format_value(definition),)
+        line = DisplayedEquation(printer.format_letter(definition.name), values)
         blocks.setdefault(definition.section, []).append(line)
-    return "".join(
+    parts = (
         f"{heading(title)}\n{format_display(lines)}\n" for title, lines in blocks.items() if lines
     )
+    return "".join(parts)
 
 
 def serialise_sheet(sheet: Sheet) -> dict[str, Any]:

@@ -351,9 +351,8 @@ def compare_cad(
         unknown_data: {quantity: why it has no value}; these are left out.
     """
     places = {d: find_places(system.definitions[d]) for d in system.data}
-    depends = {
-        d: tuple(x for x in system.letters if system.place[x] in places[d]) for d in system.data
-    }
+    place = system.place
+    depends = {d: tuple(x for x in system.letters if place[x] in places[d]) for d in system.data}
     missing = {d: [x for x in letters if x not in cad] for d, letters in depends.items()}
     left_out = {d: f"no CAD value of {', '.join(some)}" for d, some in missing.items() if some}
     left_out |= unknown_data or {}
@@ -410,9 +409,8 @@ class _CadProblem:
             name, sigma = self.system.data[i], math.sqrt(max(covariance[i, i], 0.0))
             both = float(self.cad[k]), float(self.cad_sigma[k])
             suspicious = bool(abs(z[k]) > bound)
-            row = CadRow(
-                name, float(self.data[k]), sigma, *both, float(z[k]), suspicious, depends[name]
-            )
+            datum = float(self.data[k])
+            row = CadRow(name, datum, sigma, *both, float(z[k]), suspicious, depends[name])
             rows.append(row)
         return sorted(rows, key=lambda row: -abs(row.z))
 
@@ -422,16 +420,14 @@ class _CadProblem:
 
     def evaluate_jacobian(self, point: np.ndarray) -> np.ndarray:
         """Evaluates the Jacobian (quantities, generators) at a point of the parameters."""
-        return np.array([poly.evaluate_slopes(point) for poly in self.polys]).reshape(
-            -1, len(point)
-        )
+        slopes = [poly.evaluate_slopes(point) for poly in self.polys]
+        return np.array(slopes).reshape(-1, len(point))
 
     def compute_z(self, point: np.ndarray) -> np.ndarray:
         """Computes the differences of data and quantities by their standard deviations."""
         difference = self.data - self.evaluate_quantities(point)
-        return np.array(
-            [_standardise_difference(a, b) for a, b in zip(difference, self.sigma, strict=True)]
-        )
+        pairs = zip(difference, self.sigma, strict=True)
+        return np.array([_standardise_difference(a, b) for a, b in pairs])
 
     def compute_chi_squared(self, point: np.ndarray) -> float:
         """Computes the weighted sum of squares of the differences, correlations counted."""

@@ -171,9 +171,8 @@ def derive_leg_blocks(
     V, motors = [names[p] for p in closure.platform], [names[a] for a in closure.actuated]
     legs, blocks = find_connected_blocks(closure, closure.platform, len(names)), list[LegBlock]()
     rates: dict[int, list[Expr]] = {}
-    values, write_expression = _convert_to_fractions(
-        [entry for line in closure.jacobian for entry in line]
-    )
+    entries = [entry for line in closure.jacobian for entry in line]
+    values, write_expression = _convert_to_fractions(entries)
     for k, (equations, unknown) in enumerate(legs, 1):
         if not 0 < len(unknown) <= THRESHOLDS.max_block_equations:
             raise RobotError(
@@ -241,16 +240,14 @@ def _build_column_blocks(
         chosen = [p for p, at in touching.items() if drive is None or (at <= motors) is drive]
         rows = [u for u in places if not drive or u in motors]
         lines = [[model.regressor.get((u, p.column), zero) for p in chosen] for u in rows]
-        return _build_block(
-            name, description, [names[u] for u in rows], [p.name for p in chosen], lines
-        )
+        columns = [p.name for p in chosen]
+        return _build_block(name, description, [names[u] for u in rows], columns, lines)
 
     blocks = [select_block("WP", "eq. (26), DP = Jp^T WP", closure.platform)]
     for k, (_, unknown) in enumerate(legs, 1):
         blocks.append(select_block(f"Dm{k}", "eq. (25), columns of the motor", unknown, True))
-        blocks.append(
-            select_block(f"DL{k}", "eq. (24), the other columns of the leg", unknown, False)
-        )
+        others = "eq. (24), the other columns of the leg"
+        blocks.append(select_block(f"DL{k}", others, unknown, False))
     return [one for one in blocks if one.columns]
 
 
@@ -285,9 +282,8 @@ def _convert_to_fractions(
         for k, square in squares.items():
             parts = [replace_square(part, k, square) for part in parts]
         quotient, known = functions(parts[0]) / functions(parts[1]), [Expr(graph, n) for n in atoms]
-        above, below = (
-            evaluate_polynomial(part, known) for part in (quotient.numer, quotient.denom)
-        )
+        parts = [quotient.numer, quotient.denom]
+        above, below = (evaluate_polynomial(part, known) for part in parts)
         return (graph.constant(0) + above) / below
 
     return values, write_expression
@@ -464,19 +460,17 @@ def kane_form(model: SymbolicModel, states: States) -> tuple[Equation, float]:
     Raises:
         RobotError: `[terms] triads` gives a frame other than three axes.
     """
-    formula_model = copy_model(model)
-    bodies, triads = _build_bodies(formula_model), _read_triads(formula_model)
-    names = [joint.name for joint in formula_model.robot.free_joints]
-    letters = collect_symbol_names(formula_model, {}) | {VECTOR + n: n for _, n in triads.values()}
-    writer = SheetWriter(
-        formula_model.graph, letters, formula_model.robot.has_binary_fractions, abbreviate=False
-    )
+    copy = copy_model(model)
+    bodies, triads = _build_bodies(copy), _read_triads(copy)
+    names = [joint.name for joint in copy.robot.free_joints]
+    letters = collect_symbol_names(copy, {}) | {VECTOR + n: n for _, n in triads.values()}
+    writer = SheetWriter(copy.graph, letters, copy.robot.has_binary_fractions, abbreviate=False)
 
     def write_vector(vector: Along) -> Expr:
-        total = formula_model.graph.constant(0)
+        total = copy.graph.constant(0)
         for key, entry in vector.items():
             sign, axis = triads[key]
-            total = total + entry * sign * formula_model.graph.symbol(VECTOR + axis)
+            total = total + entry * sign * copy.graph.symbol(VECTOR + axis)
         return total
 
     rows = list(enumerate(product([*bodies.values()], (0, 1)), 1))
@@ -486,9 +480,8 @@ def kane_form(model: SymbolicModel, states: States) -> tuple[Equation, float]:
         writer.add_result(name, write_vector(body.v[k]), read=not k)
     writer.open_section("beta: tangent vectors, v = beta qd")
     for (r, (body, k)), (j, name) in product(rows, enumerate(names)):
-        writer.add_result(
-            format_function_name("beta", [str(r), name]), write_vector(body.beta[j][k]), read=False
-        )
+        value = write_vector(body.beta[j][k])
+        writer.add_result(format_function_name("beta", [str(r), name]), value, read=False)
     writer.open_section("p: momenta, angular momenta about the mass centres")
     for r, (body, k) in rows:
         p = write_vector(body.p[1]) if k else body.mass * write_vector(body.v[0])
@@ -501,7 +494,7 @@ def kane_form(model: SymbolicModel, states: States) -> tuple[Equation, float]:
         "(F - dp/dt) . beta = 0: one equation a joint",
     )
     return Equation(words, writer.build_sheet(), ()), _compare_kane_torques(
-        formula_model, bodies, model, states
+        copy, bodies, model, states
     )
 
 
@@ -592,9 +585,8 @@ def _resolve_along_frames(
 ) -> list[tuple[Along, Along, Vector]]:
     """Of every row: velocity of the origin and rotation along the frames, rotation in its own."""
     row_motions: list[tuple[Along, Along, Vector]] = []
-    for k, (row, (w, _)) in enumerate(
-        zip(model.geometry.rows, _propagate_speeds(model, qd), strict=True)
-    ):
+    rows = zip(model.geometry.rows, _propagate_speeds(model, qd), strict=True)
+    for k, (row, (w, _)) in enumerate(rows):
         V: Along = {}
         turn: Along = {}
         if row.parent is not None:

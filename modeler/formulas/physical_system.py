@@ -275,9 +275,8 @@ class _KnownGeometry:
         number, factors = sympy.factor_list(below)
         try:
             lower = [(x, self._convert_polynomial(x)) for x, power in factors for _ in range(power)]
-            return self._convert_polynomial(above / number), tuple(
-                self._add_quotient(1 / x, p) for x, p in lower
-            )
+            quotients = tuple(self._add_quotient(1 / x, p) for x, p in lower)
+            return self._convert_polynomial(above / number), quotients
         except DerivationError:
             number, rest = sympy.sympify(value).as_coeff_Mul()
             return self._convert_polynomial(number), (self._add_quotient(rest, None),)
@@ -294,9 +293,8 @@ class _KnownGeometry:
         self.quotients[name] = str(value)
         if below is not None:
             self.below[name] = below
-        self.values[name] = float(
-            value.subs({x: self.symbol_values[x.name] for x in value.free_symbols})
-        )
+        values = {x: self.symbol_values[x.name] for x in value.free_symbols}
+        self.values[name] = float(value.subs(values))
         return name
 
 
@@ -327,9 +325,8 @@ def _build_from_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSyst
         if total:
             definitions[name] = total
     used = tuple(definitions)
-    return _build_system(
-        model.robot.name, geometry, definitions, None, (used, ()), np.eye(len(used)), tuple(alone)
-    )
+    same, name = np.eye(len(used)), model.robot.name
+    return _build_system(name, geometry, definitions, None, (used, ()), same, tuple(alone))
 
 
 def _build_system(

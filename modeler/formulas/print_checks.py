@@ -373,13 +373,11 @@ def compute_power_balance(table: CoefficientTable, state: PowerState) -> Fractio
     for function in table.closed.functions:
         for at, form in function.terms.items():
             if function.kind == "christoffel":
-                total += state.evaluate_term(at, flatten_form(form)) * state.multiply_speeds(
-                    function.joints
-                )
+                speeds = state.multiply_speeds(function.joints)
+                total += state.evaluate_term(at, flatten_form(form)) * speeds
             elif function.kind == "inertia":
-                total -= _compute_half_slope_power(
-                    table, state, function.joints, at, flatten_form(form)
-                )
+                vector = flatten_form(form)
+                total -= _compute_half_slope_power(table, state, function.joints, at, vector)
     return total
 
 
@@ -397,9 +395,8 @@ def _compute_half_slope_power(
     total = Fraction(0)
     for k in range(algebra.geometry.coordinate_count):
         for moved, value in algebra.differentiate_polynomial(monomial, k).items():
-            slope = convert_to_fraction(value) * state.evaluate_term(
-                moved[: algebra.moving], vector
-            )
+            term = state.evaluate_term(moved[: algebra.moving], vector)
+            slope = convert_to_fraction(value) * term
             total += slope * state.multiply_speeds((*joints, k))
     return total / 2 if joints[0] == joints[1] else total
 
@@ -562,10 +559,8 @@ def _write_friction(table: CoefficientTable) -> str:
         f"With G = [{matrix}], C = ({format_row(coupling.coulomb)}) N m, qd = "
         f"({format_row(coupling.speed)}) rad/s the motors take {float(check.dissipated):g} W:"
     )
-    rows = (
-        ("printed", check.printed, check.printed_power),
-        ("derived", check.derived, check.derived_power),
-    )
+    rows = [("printed", check.printed, check.printed_power)]
+    rows += [("derived", check.derived, check.derived_power)]
     lines = [f"| {name} | {format_row(x)} | {float(power):g} |" for name, x, power in rows]
     heads = ["| | joint torques, N m | power, W |", "|---|---|---|"]
     return _format_section("### Friction of coupled motors", intro, [*heads, *lines])
@@ -686,11 +681,8 @@ def _write_map(table: CoefficientTable) -> str:
     if grouped:
         lines += ["Grouped parameters:", "", "```text", *grouped, "```", ""]
     lines += ["```text", *format_forward_map(table), "```", ""]
-    determinant, rows, columns = (
-        format_determinant(table),
-        len(table.map.rows),
-        len(table.map.columns),
-    )
+    determinant = format_determinant(table)
+    rows, columns = len(table.map.rows), len(table.map.columns)
     if determinant is None:
         why = "not square" if rows != columns else "its determinant too long to print"
         lines.append(f"This map is {rows} x {columns}, {why}.")

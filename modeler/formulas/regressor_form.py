@@ -20,16 +20,9 @@ from modeler.derivation import (
     plus,
     times,
 )
+from modeler.formulas import short_form
 from modeler.formulas.function_sheet import FormulaForm, Sheet, SheetWriter, format_sheet
 from modeler.formulas.ring import TrigRing, evaluate_polynomial
-from modeler.formulas.short_form import (
-    collect_symbol_names,
-    copy_model,
-    get_base_columns,
-    get_signal_letters,
-    propose_vector,
-    write_short_form,
-)
 from modeler.formulas.thresholds import THRESHOLDS
 
 # Loops that tie the free variables: J_t, J_p and the closure's Jacobian in closed form.
@@ -165,10 +158,8 @@ class _LoopWriter:
         passive = {*closure.solved} - {*(closure.platform or ())}
         places = [(m.sine, m.cosine, m.variable) for m in ring.motions if passive & {*m.form}]
         turned = [k for each in places for k in each if k is not None]
-        generators, call = (
-            list[Expr](),
-            model.graph.call,
-        )  # of the ring, as expressions of the graph
+        generators = list[Expr]()  # of the ring, as expressions of the graph
+        call = model.graph.call
         for motion in ring.motions:
             at = combine_along_shaft(model, motion.form, "q")
             generators += (
@@ -299,13 +290,13 @@ def derive_equation(
     model: SymbolicModel, base: BaseParameters, *, motion: bool = False, columns: bool = False
 ) -> Equation:
     """Derives the equation of motion, the columns, or both on one sheet."""
-    model = copy_model(model)
-    letters = collect_symbol_names(model, get_base_columns(base))
+    model = short_form.copy_model(model)
+    letters = short_form.collect_symbol_names(model, short_form.get_base_columns(base))
     writer = SheetWriter(model.graph, letters, model.robot.has_binary_fractions)
     loops = write_loops(model, writer) if model.closure is not None else []
     words = []
     if motion:
-        write_short_form(model, base, writer)
+        short_form.write_short_form(model, base, writer)
         words.append(
             f"{'t_i' if loops else 'tau_i'} = sum_j J_ij qdd_j + sum_{{j<=k}} S_ijk qd_j qd_k + "
             "g_i + e_i; e: friction, offsets and all other effects but rotor inertias, which are "
@@ -321,16 +312,15 @@ def derive_equation(
             words.append(f"constant gravity and an offset in one, in e or in g: {', '.join(mixed)}")
     if columns:
         write_columns(model, base, writer)
-        words.append(
-            f"{'t' if loops else 'tau'} = phi beta, phi<joint>_<parameter>; what is not listed is 0"
-        )
+        tau = "t" if loops else "tau"
+        words.append(f"{tau} = phi beta, phi<joint>_<parameter>; what is not listed is 0")
     words += [*_describe_signals(model), *_describe_laws(model), *loops]
     return Equation(tuple(words), writer.build_sheet(), tuple(loops))
 
 
 def _describe_signals(model: SymbolicModel) -> list[str]:
     """What the letters are that effects read besides the motion."""
-    letters = get_signal_letters(model)
+    letters = short_form.get_signal_letters(model)
     descriptions = [
         f"{letter}: {signal.kind}"
         + (f" of joint {model.robot.joints[signal.row].name}" if signal.row >= 0 else "")
@@ -380,9 +370,9 @@ def propose_motion(model: SymbolicModel, writer: SheetWriter) -> None:
         name = row.joint.name
         writer.open_section(f"motion of link {name}, in frame {name}")
         for letter, vector in (("w", motion.w), ("wd", motion.wd), ("vd", motion.vd)):
-            propose_vector(writer, f"{letter}{{}}_{name}", vector)
+            short_form.propose_vector(writer, f"{letter}{{}}_{name}", vector)
         for axis, line in zip(_AXES, motion.U, strict=True):
-            propose_vector(writer, f"U{axis}{{}}_{name}", line)
+            short_form.propose_vector(writer, f"U{axis}{{}}_{name}", line)
         for k, screw in sorted(chain.items()):
             free = model.robot.free_joints[k].name
             for axis, e, m in zip(_AXES, screw.e, screw.m, strict=True):
@@ -403,7 +393,7 @@ def drop_zero_parameters(model: SymbolicModel, base: BaseParameters) -> BasePara
         RobotError: the robot file states no values of inertial parameters.
     """
     known, lengths = model.robot.parameters, model.geometry.values
-    nonzero_parameters = []
+    parameters = []
     for parameter in base.parameters:
         sizes = []
         for term in parameter.terms:
@@ -411,12 +401,10 @@ def drop_zero_parameters(model: SymbolicModel, base: BaseParameters) -> BasePara
             sizes.append(float(term.coefficient.subs(letters)) * known.get(term.parameter, 0.0))
         link = base.columns[parameter.column].kind == "inertial"
         if not link or abs(sum(sizes)) > THRESHOLDS.zero_parameter * sum(map(abs, sizes)):
-            nonzero_parameters.append(parameter)
-    if not any(
-        base.columns[parameter.column].kind == "inertial" for parameter in nonzero_parameters
-    ):
+            parameters.append(parameter)
+    if not any(base.columns[parameter.column].kind == "inertial" for parameter in parameters):
         raise RobotError(
             f"robot {model.robot.name}: all inertial base parameters are 0 at its nominal values; "
             "state them in [parameters], or leave out --nonzero"
         )
-    return replace(base, parameters=tuple(nonzero_parameters))
+    return replace(base, parameters=tuple(parameters))

@@ -82,9 +82,8 @@ class Motions:
 
     def find_travel(self, k: int) -> int:
         """Returns place of the generator of the free variable u[k]."""
-        return next(
-            m.variable for m in self.each if m.variable is not None and m.form == {k: Fraction(1)}
-        )
+        wanted = {k: Fraction(1)}
+        return next(m.variable for m in self.each if m.variable is not None and m.form == wanted)
 
 
 def find_motions(geometry: Geometry) -> Motions:
@@ -215,9 +214,8 @@ class TrigRing:
         Raises:
             DerivationError: not a polynomial of symbols, sines, cosines and roots of numbers.
         """
-        return self.normalise_polynomial(
-            _convert_polynomial(sympy.expand_trig(value), self.ring, self._place)
-        )
+        expanded = _convert_polynomial(sympy.expand_trig(value), self.ring, self._place)
+        return self.normalise_polynomial(expanded)
 
     def variable(self, row: GeometryRow) -> Poly:
         """Returns rate * q + offset of a prismatic joint."""
@@ -255,9 +253,7 @@ class TrigRing:
             rate = motion.form.get(index)
             if rate:
                 slope = self._differentiate_motion(poly, motion)
-                total = total + (
-                    slope if rate == 1 else slope * QQ(rate.numerator, rate.denominator)
-                )
+                total += slope if rate == 1 else slope * QQ(rate.numerator, rate.denominator)
         return total
 
     def _differentiate_motion(self, poly: Poly, motion: RingMotion) -> Poly:
@@ -444,9 +440,8 @@ def invert_base_map(base_map: BaseMap, ring: Any) -> Mapping[str, Mapping[str, A
     """
     if not base_map.determinant:
         return None
-    inverse = (
-        _build_domain_matrix(base_map.entries, len(base_map.rows), ring).to_field().inv().to_dod()
-    )
+    matrix = _build_domain_matrix(base_map.entries, len(base_map.rows), ring)
+    inverse = matrix.to_field().inv().to_dod()
     return {
         name: {base_map.rows[c]: value for c, value in sorted(inverse.get(r, {}).items())}
         for r, name in enumerate(base_map.columns)
@@ -583,9 +578,8 @@ def format_linear_form(
         if len(factor) == 1:
             ((at, value),) = factor.items()
             plain = _format_plain(at, names, style)
-            terms.append(
-                (convert_to_fraction(value), f"{plain}{style.times}{letter}" if plain else letter)
-            )
+            text = f"{plain}{style.times}{letter}" if plain else letter
+            terms.append((convert_to_fraction(value), text))
         else:
             inside = format_polynomial(factor, names, style)
             terms.append((Fraction(1), f"({inside}){style.times}{letter}"))
@@ -612,28 +606,24 @@ def format_physical(
         if len(inside) == 1:
             ((at, value),) = inside.items()
             plain = _format_plain(at, names, style)
-            terms.append(
-                (convert_to_fraction(value), f"{letter}{style.times}{plain}" if plain else letter)
-            )
+            text = f"{letter}{style.times}{plain}" if plain else letter
+            terms.append((convert_to_fraction(value), text))
         else:
             values = [convert_to_fraction(value) for value in inside.values()]
             smallest = min(abs(value) for value in values)
             shared = all((value / smallest).denominator == 1 for value in values)
             content = smallest if shared else Fraction(1)
             content = content if any(value > 0 for value in values) else -content
-            parts = [
-                (convert_to_fraction(v) / content, _format_plain(at, names, style))
-                for at, v in inside.items()
-            ]
+            numbers = zip(inside, (value / content for value in values), strict=True)
+            parts = [(value, _format_plain(at, names, style)) for at, value in numbers]
             terms.append((content, f"{letter}{style.times}({format_signed_sum(parts, style)})"))
     return format_signed_sum(terms, style)
 
 
 def format_combination(combination: Mapping[str, Fraction], style: TextStyle = TEXT) -> str:
     """Returns a combination of named coefficients: "2*PJ1 + 2*PJ3", "-PJ5/2"."""
-    return format_signed_sum(
-        ((value, style.format_name(name)) for name, value in combination.items()), style
-    )
+    terms = ((value, style.format_name(name)) for name, value in combination.items())
+    return format_signed_sum(terms, style)
 
 
 def format_signed_sum(terms: Iterable[tuple[Fraction, str]], style: TextStyle = TEXT) -> str:
@@ -660,6 +650,5 @@ def format_signed_sum(terms: Iterable[tuple[Fraction, str]], style: TextStyle = 
 
 def _format_plain(at: Sequence[int], names: Sequence[str], style: TextStyle) -> str:
     """The monomial in the order of its generators; empty for 1."""
-    return style.times.join(
-        style.format_power(name, e) for name, e in zip(names, at, strict=True) if e
-    )
+    factors = ((name, e) for name, e in zip(names, at, strict=True) if e)
+    return style.times.join(style.format_power(name, e) for name, e in factors)

@@ -76,9 +76,8 @@ def get_base_columns(base: BaseParameters) -> dict[int, str]:
 def build_effects_sheet(model: SymbolicModel, parameters: Mapping[int, str]) -> Sheet:
     """Returns the sheet of `write_effects` alone, for the parameters of those columns."""
     model = copy_model(model)
-    writer = SheetWriter(
-        model.graph, collect_symbol_names(model, parameters), model.robot.has_binary_fractions
-    )
+    letters = collect_symbol_names(model, parameters)
+    writer = SheetWriter(model.graph, letters, model.robot.has_binary_fractions)
     write_effects(model, parameters, writer)
     return writer.build_sheet()
 
@@ -230,9 +229,8 @@ def _derive_tree_quantities(
         pull = cross(body.MS, g)
         gravity[k] = -project_wrench(chain[k], [x * body.M for x in g], pull)
         for i, j in combinations_with_replacement(sorted(chain), 2):
-            turned[i, j, k] = (
-                _derive_inertia_slope(body, chain[i], chain[j], row.joint.is_revolute) * row.rate
-            )
+            slope = _derive_inertia_slope(body, chain[i], chain[j], row.joint.is_revolute)
+            turned[i, j, k] = slope * row.rate
             if j == k:
                 inertia[i, k] = project_wrench(chain[i], f, n)
             if i < j:
@@ -271,16 +269,14 @@ def _collect_shaft_inertias(
     model: SymbolicModel, beta: Mapping[int, Expr]
 ) -> dict[tuple[int, int], Expr]:
     """Inertia that turns with shafts: {(i, j): value}, i <= j, of free variables."""
-    shaft_inertias: dict[tuple[int, int], Expr] = {}
+    sums: dict[tuple[int, int], Expr] = {}
     for place, value in beta.items():
         for part in model.columns[place].parts:
             if is_in_block(part, EnergyBlock.KINETIC):
                 for i, j in combinations_with_replacement(sorted(part.shaft), 2):
                     added = value * (part.shaft[i] * part.shaft[j])
-                    shaft_inertias[i, j] = (
-                        shaft_inertias.get((i, j), model.graph.constant(0)) + added
-                    )
-    return shaft_inertias
+                    sums[i, j] = sums.get((i, j), model.graph.constant(0)) + added
+    return sums
 
 
 def _write_chain(
@@ -294,9 +290,8 @@ def _write_chain(
     for (i, k), value in sorted(rows.inertia.items()):
         total = value + shafts[i, k] if (i, k) in shafts else value
         writer.add_result(format_function_name("J", [names[i], names[k]]), total)
-    writer.open_section(
-        "Christoffel coefficients; S_kij = -S_jik and S_kii = -S_iik/2 for i <= j <= k"
-    )
+    title = "Christoffel coefficients; S_kij = -S_jik and S_kii = -S_iik/2 for i <= j <= k"
+    writer.open_section(title)
     for i, j, k in sorted(rows.turned):
         A, B = rows.turned[i, j, k], rows.carried.get((i, j, k))
         x, y, z = names[i], names[j], names[k]

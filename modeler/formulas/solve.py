@@ -182,11 +182,10 @@ class _Elimination:
         """
         letters = [x for x in self.system.letters if x in self.open]
         columns = [self.system.slopes[x] for x in letters]
-        entries = (
-            {k: c[i] for k, c in enumerate(columns) if c[i]} for i in range(len(self.defined))
-        )
+        places = range(len(self.defined))
+        entries = ({k: c[i] for k, c in enumerate(columns) if c[i]} for i in places)
         rows = [
-            {k: evaluate_modulo(poly, self.point, self.prime) for k, poly in line.items()}
+            {k: evaluate_modulo(p, self.point, self.prime) for k, p in line.items()}
             for line in entries
         ]
         order = sorted(range(len(rows)), key=lambda i: -len(self.defined[i]))
@@ -318,9 +317,8 @@ def format_formula(step: SolvingStep, system: PhysicalSystem, style: TextStyle =
     """Returns the right side of a step's formula, else the polynomial that is zero."""
     if step.equation is not None:
         parts = []
-        for power, factor in sorted(
-            collect_powers(step.equation, system.place[step.letter]).items()
-        ):
+        factors = collect_powers(step.equation, system.place[step.letter]).items()
+        for power, factor in sorted(factors):
             text = format_polynomial(factor, system.names, style)
             if power:
                 text = (

@@ -265,9 +265,8 @@ class _SetCounter:
         done = 0.0
         for part in self.parts:
             share = self._estimate_work(part, spare)
-            total = _combine_counts(
-                total, self._count_part(part, spare, done / work, share / work), spare
-            )
+            count = self._count_part(part, spare, done / work, share / work)
+            total = _combine_counts(total, count, spare)
             done += share
         return {key: [int(x) for x in entry] for key, entry in total.get(spare, {}).items()}
 

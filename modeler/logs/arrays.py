@@ -126,20 +126,13 @@ def build_columns(
         array_columns += slices
         units |= {name: held.unit for name, _ in slices if held.unit}
     omissions = [f"{_join_names(left)} left out: no columns of {rows} rows"] if left else []
-    single = (
-        (a.name, a.data[()]) for a in arrays if math.prod(a.shape) == 1 and _is_rate_name(a.name)
-    )
+    scalars = (a for a in arrays if math.prod(a.shape) == 1)
+    single = ((a.name, a.data[()]) for a in scalars if _is_rate_name(a.name))
     columns, stamped, how = join_stamps(array_columns)
     units |= stamped
     how = (*episodes, *how)
-    return Columns(
-        columns,
-        rows,
-        units,
-        (*notes, *omissions),
-        rate=_find_stated_rate(single),
-        reading_notes=how,
-    )
+    rate = _find_stated_rate(single)
+    return Columns(columns, rows, units, (*notes, *omissions), rate=rate, reading_notes=how)
 
 
 def _is_rate_name(name: str) -> bool:
@@ -149,9 +142,8 @@ def _is_rate_name(name: str) -> bool:
 def _find_stated_rate(values: Iterable[tuple[str, Any]]) -> float | None:
     """Hz, of single values such as fs or dt."""
     for name, value in values:
-        number = (
-            float(np.asarray(value).reshape(-1)[0]) if np.asarray(value).dtype.kind in "iuf" else 0
-        )
+        value = np.asarray(value)
+        number = float(value.reshape(-1)[0]) if value.dtype.kind in "iuf" else 0
         if _is_rate_name(name) and 0.0 < number < math.inf:
             return number if re.split(r"[./]", name)[-1].lower() in _RATES else 1.0 / number
     return None
@@ -188,14 +180,11 @@ class _ConcatenatedArray:
 
     def __getitem__(self, key: tuple[()]) -> np.ndarray:
         whole = [np.asarray(part.data[()]).astype(self.dtype) for part in self.parts]
-        values = [
-            episode.T if part.flipped else episode
-            for episode, part in zip(whole, self.parts, strict=True)
-        ]
+        pairs = zip(whole, self.parts, strict=True)
+        values = [episode.T if part.flipped else episode for episode, part in pairs]
         if guess_role(self.parts[0].name) == "time":
-            for before, episode in itertools.pairwise(
-                episode for episode in values if episode.size > 1
-            ):
+            longer = (episode for episode in values if episode.size > 1)
+            for before, episode in itertools.pairwise(longer):
                 if episode.flat[0] <= before.flat[-1]:
                     step = np.median(np.diff(before.reshape(-1)))
                     episode += (before.flat[-1] + step - episode.flat[0]).astype(episode.dtype)
@@ -211,28 +200,21 @@ def _concatenate_episodes(arrays: Sequence[NamedArray]) -> tuple[list[NamedArray
     groups: dict[str, dict[int, dict[str, NamedArray]]] = {}
     for array in arrays:
         if array.shape and (match := _EPISODE.fullmatch(array.name)):
-            episode_arrays = groups.setdefault(match[1] + match[2], {}).setdefault(
-                int(match[3]), {}
-            )
-            episode_arrays[match[1] + match[4]] = array
+            episodes = groups.setdefault(match[1] + match[2], {})
+            named = episodes.setdefault(int(match[3]), {})
+            named[match[1] + match[4]] = array
     for group, numbered in groups.items():
         episodes = dict(sorted(numbered.items()))
         rows = [
-            Counter(a.shape[0] for a in episode_arrays.values()).most_common(1)[0][0]
-            for episode_arrays in episodes.values()
+            Counter(a.shape[0] for a in named.values()).most_common(1)[0][0]
+            for named in episodes.values()
         ]
         if len(rows) < 2 or not (_EPISODES.search(group) or len({*rows}) > 1):
             continue
-        inside = {
-            id(array) for episode_arrays in episodes.values() for array in episode_arrays.values()
-        }
+        inside = {id(array) for named in episodes.values() for array in named.values()}
         made, left = [array for array in arrays if id(array) not in inside], list[str]()
         for name, first in episodes[min(episodes)].items():
-            parts = [
-                episode_arrays[name]
-                for episode_arrays in episodes.values()
-                if name in episode_arrays
-            ]
+            parts = [named[name] for named in episodes.values() if name in named]
             shape = first.shape[1:]
             if [part.shape for part in parts] == [(count, *shape) for count in rows]:
                 whole = _ConcatenatedArray(parts, (sum(rows), *shape), first.data.dtype)
@@ -250,9 +232,8 @@ def _concatenate_episodes(arrays: Sequence[NamedArray]) -> tuple[list[NamedArray
 
 def _find_row_count(arrays: Sequence[NamedArray]) -> int | None:
     """The length that most arrays have along an axis; of two the longer."""
-    counts = Counter(
-        n for a in arrays if len(a.shape) in (1, 2) for n in set(a.shape) if n >= LEAST_ROWS
-    )
+    small = (a for a in arrays if len(a.shape) in (1, 2))
+    counts = Counter(n for a in small for n in set(a.shape) if n >= LEAST_ROWS)
     return max(counts, key=lambda n: (counts[n], n), default=None)
 
 
@@ -274,9 +255,8 @@ def expand_fields(name: str, data: Any, **more: Any) -> list[NamedArray]:
     if data.dtype.names is None:
         return [NamedArray(name, data, **more)]
     head = f"{name}." if name else ""
-    return [
-        NamedArray(f"{head}{field}", _MatField(data, field), **more) for field in data.dtype.names
-    ]
+    fields = data.dtype.names
+    return [NamedArray(f"{head}{x}", _MatField(data, x), **more) for x in fields]
 
 
 @dataclass(frozen=True, eq=False)
@@ -324,9 +304,8 @@ def read_numpy(path: Path, wanted: ColumnRequest) -> Columns:
             arrays = expand_fields(name, content)
         else:
             with content:
-                check_unpacked_size(
-                    path, sum(member.file_size for member in content.zip.infolist())
-                )
+                size = sum(member.file_size for member in content.zip.infolist())
+                check_unpacked_size(path, size)
                 arrays = [a for name in content.files for a in expand_fields(name, content[name])]
     return build_columns(path, "numpy file", arrays, wanted)
 

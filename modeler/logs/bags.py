@@ -212,9 +212,8 @@ class Recording:
             for point in points:  # of a planned trajectory, each at its own time
                 since = _read_nanoseconds(_get_fields(point).get("time_from_start"))
                 at = stamp + since if stamp else 0
-                self._add_values(
-                    topic, kind, received + since, at, point, "points", _find_names(fields)
-                )
+                names = _find_names(fields)
+                self._add_values(topic, kind, received + since, at, point, "points", names)
             return True
         return self._add_values(topic, kind, received, stamp, message, "", _find_names(fields))
 
@@ -276,9 +275,8 @@ class Recording:
                 name = f"{part.topic.strip('/')}.{label}"
                 columns.setdefault(name, ColumnValues(table[:, k]))
         if self.unreadable:
-            notes.append(
-                f"{', '.join(sorted(self.unreadable))} left out: messages of unknown types"
-            )
+            listed = ", ".join(sorted(self.unreadable))
+            notes.append(f"{listed} left out: messages of unknown types")
         streams = [Stream(p.topic, p.kind, len(p.rows), p is clock) for p in parts]
         return Columns(tuple(columns.items()), len(stamps), {}, tuple(notes), tuple(streams))
 
@@ -432,9 +430,8 @@ def read_bag(path: Path, wanted: ColumnRequest) -> Columns:
                 if connection.id in empty:
                     continue
                 message = bag.deserialize(raw, connection.msgtype)
-                if not recording.add_message(
-                    connection.topic, connection.msgtype, received, message
-                ):
+                topic, kind = connection.topic, connection.msgtype
+                if not recording.add_message(topic, kind, received, message):
                     empty.add(connection.id)
     return recording.build_columns(path, wanted)
 
@@ -466,7 +463,6 @@ def _check_packed(path: Path, file: Path) -> None:
                 at = header.find(b"size=") + 5
                 size += (stated := int.from_bytes(header[at : at + 4], "little"))
                 check_unpacked_size(path, size)
-                packing = next(
-                    (p for p in ("lz4", "bz2") if f"compression={p}".encode() in header), ""
-                )
+                words = {p: f"compression={p}".encode() for p in ("lz4", "bz2")}
+                packing = next((p for p, word in words.items() if word in header), "")
                 unpack_bytes(raw.read(length), packing, stated)

@@ -20,6 +20,7 @@ import pyarrow.parquet
 
 from modeler.core.errors import DataError
 from modeler.core.files import check_unpacked_size
+from modeler.logs import datasets
 from modeler.logs.columns import (
     Column,
     ColumnRequest,
@@ -31,14 +32,7 @@ from modeler.logs.columns import (
     make_read_error,
     wrap_read_errors,
 )
-from modeler.logs.datasets import (
-    Dataset,
-    find_dataset,
-    flatten_table,
-    join_episodes,
-    rename_by_joint_names,
-    select_needed_columns,
-)
+from modeler.logs.datasets import Dataset, find_dataset
 from modeler.logs.dialect import TEXTS, detect_dialect, detect_head, parse_decimal, strip_quotes
 from modeler.logs.thresholds import THRESHOLDS
 from modeler.logs.times import (
@@ -156,9 +150,9 @@ def _build_parquet_columns(
     names: Sequence[str] = (),
 ) -> Columns:
     """With entries of lists as columns, and the clock of a dataset."""
-    table, clock_notes = join_episodes(table, dataset, origins.get("index", 0))
+    table, clock_notes = datasets.join_episodes(table, dataset, origins.get("index", 0))
     counted_from = {n: first for n, first in origins.items() if n != "index" or is_beyond(first)}
-    columns = build_arrow_columns(flatten_table(table, dataset), before, counted_from)
+    columns = build_arrow_columns(datasets.flatten_table(table, dataset), before, counted_from)
     rate = None if dataset is None else dataset.fps
     return select_columns(
         dataclasses.replace(
@@ -249,13 +243,9 @@ class _TextFile:
         texts = {name for name, kind in kinds.items() if pa.types.is_string(kind)}
         wholes = {name: first for name, first in dialect.wholes.items() if name not in texts}
         columns = build_arrow_columns(table, before, {**dialect.clocks, **wholes})
-        units, reading_notes = (
-            {**columns.units, **head.units},
-            (*dialect.reading_notes, *columns.reading_notes),
-        )
-        columns = dataclasses.replace(
-            columns, units=units, reading_notes=reading_notes, rate=head.rate
-        )
+        units = {**columns.units, **head.units}
+        notes = (*dialect.reading_notes, *columns.reading_notes)
+        columns = dataclasses.replace(columns, units=units, reading_notes=notes, rate=head.rate)
         return select_columns(columns, wanted)
 
     def _parse_rows(
@@ -290,7 +280,7 @@ def build_arrow_columns(
         before: rows of the file that stand before them.
         origins: what columns of times are counted from.
     """
-    table, by_names = rename_by_joint_names(table)
+    table, by_names = datasets.rename_by_joint_names(table)
     named = [
         (strip_quotes(name), _ArrowColumn(table.column(i), before, origins.get(name)))
         for i, name in enumerate(table.column_names)
@@ -341,11 +331,8 @@ class CsvBlocks:
             self._text = _TextFile(path)
             self._start, self.lists = self._text.dialect.start, self._text.dialect.lists
             with self._open_rows() as file:
-                lines = [
-                    line
-                    for _, line in zip(range(THRESHOLDS.sampled_lines), file, strict=False)
-                    if line.strip()
-                ]
+                numbered = zip(range(THRESHOLDS.sampled_lines), file, strict=False)
+                lines = [line for _, line in numbered if line.strip()]
                 self._size = file.seek(0, os.SEEK_END)
         self._line = max(1.0, sum(map(len, lines)) / max(1, len(lines)))  # bytes
 
@@ -448,9 +435,8 @@ class ParquetBlocks:
             rows += taken.num_rows
             if rows >= size:
                 break
-        return _build_parquet_columns(
-            pa.concat_tables(parts), self._dataset, self._origins, start, names
-        )
+        table = pa.concat_tables(parts)
+        return _build_parquet_columns(table, self._dataset, self._origins, start, names)
 
     def _open_file(self) -> pa.parquet.ParquetFile:
         return open_parquet(self._path, buffer_size=_BYTES, pre_buffer=False)
@@ -460,7 +446,7 @@ class ParquetBlocks:
         read, places = int(self._starts[first]), list(range(first, len(self._starts) - 1))
         try:
             file = self._open_file()
-            some = select_needed_columns(list(names), self._stored) or None
+            some = datasets.select_needed_columns(list(names), self._stored) or None
             for batch in file.iter_batches(size, row_groups=places, columns=some):
                 yield decode_texts(self._path, pa.Table.from_batches([batch]))
                 read += batch.num_rows
@@ -527,12 +513,9 @@ def read_sheets(path: Path, wanted: ColumnRequest) -> Columns:
     with wrap_read_errors(path, "spreadsheet", "save it again as .xlsx, or as CSV"):
         _check_room(path)
         book = CalamineWorkbook.from_path(str(path))
-        cells = {
-            n: book.get_sheet_by_name(n).to_python()
-            for n in book.sheet_names
-            if wanted.topic in ("", n)
-        }
-        sheets = {n: [[str(c).strip() for c in row] for row in rows] for n, rows in cells.items()}
+        names = [n for n in book.sheet_names if wanted.topic in ("", n)]
+        pages = {n: book.get_sheet_by_name(n).to_python() for n in names}
+        sheets = {n: [[str(c).strip() for c in row] for row in rows] for n, rows in pages.items()}
     if not sheets:
         raise DataError(
             f"{path}: topic {wanted.topic}: no sheet of that name; the sheets are "
@@ -546,24 +529,18 @@ def read_sheets(path: Path, wanted: ColumnRequest) -> Columns:
         )
     rows = sheets[name]
     head = detect_head(["\t".join(row) for row in rows], rows, "\t", "", f"{path}, sheet {name}")
-    first, columns = rows[head.first], zip(*filter(any, rows[head.first :]), strict=True)
+    first, cells = rows[head.first], zip(*filter(any, rows[head.first :]), strict=True)
     clocks = {n: parse_moment(c) for n, c in zip(head.names, first, strict=True) if is_clock(c)}
-    arrays = [_build_array(c, n in clocks) for n, c in zip(head.names, columns, strict=True)]
+    arrays = [_build_array(c, n in clocks) for n, c in zip(head.names, cells, strict=True)]
     table = pa.table(arrays, names=list(head.names))
-    table_columns = build_arrow_columns(table, 0, clocks)
+    columns = build_arrow_columns(table, 0, clocks)
     notes = [f"sheet {name}"] * (len(book.sheet_names) > 1) + [*head.notes]
     notes += [f"{n} counted from the first row" for n in clocks]
     read = (f"read with {', '.join(notes)}",) if notes else ()
     streams = tuple(Stream(n, "sheet", len(r), n == name) for n, r in sheets.items())
     streams *= len(streams) > 1
     return Columns(
-        table_columns.columns,
-        table_columns.rows,
-        head.units,
-        (),
-        streams,
-        head.rate,
-        reading_notes=read,
+        columns.columns, columns.rows, head.units, (), streams, head.rate, reading_notes=read
     )
 
 
@@ -605,8 +582,9 @@ def _parse_column_number(letters: bytes) -> int:
 
 def _has_numbers(rows: Sequence[Sequence[str]]) -> bool:
     last = [row for row in rows if any(row)][-1:]
+    cells = (e for row in last for e in row)
     return len(rows) >= THRESHOLDS.min_sheet_rows and any(
-        parse_decimal(e) is not None for row in last for e in row
+        parse_decimal(e) is not None for e in cells
     )
 
 

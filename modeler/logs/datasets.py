@@ -60,9 +60,8 @@ def find_dataset(path: Path) -> Dataset | None:
     fps, features = info.get("fps"), info.get("features")
     rate = float(fps) if isinstance(fps, int | float) and fps > 0 else None
     feature_items = features.items() if isinstance(features, dict) else ()
-    names = {
-        n: tuple(_collect_texts(f.get("names"))) for n, f in feature_items if isinstance(f, dict)
-    }
+    named = {n: f.get("names") for n, f in feature_items if isinstance(f, dict)}
+    names = {n: tuple(_collect_texts(x)) for n, x in named.items()}
     return Dataset(place, rate, names)
 
 
@@ -100,11 +99,9 @@ def _count_entries(column: pa.ChunkedArray) -> int:
     if not lists or not any(is_one(kind.value_type) for is_one in held):
         return 0
     ends = pc.min_max(pc.list_value_length(column)).as_py()
-    return (
-        ends["max"] or 0
-        if ends["min"] == ends["max"] and (ends["max"] or 0) <= THRESHOLDS.max_list_entries
-        else 0
-    )
+    if ends["min"] == ends["max"] and (ends["max"] or 0) <= THRESHOLDS.max_list_entries:
+        return ends["max"] or 0
+    return 0
 
 
 def join_episodes(

@@ -190,9 +190,8 @@ def _name_entries(names: Sequence[str], counts: Sequence[int]) -> tuple[str, ...
 
 def _split_lines(raw: bytes, whole: bool) -> tuple[list[bytes], list[int]]:
     """Lines, and where each begins; without one that is cut off."""
-    matches = [
-        m for m in re.finditer(rb"([^\r\n]*)(\r\n|\n|\r|$)", raw) if m[2] or (whole and m[1])
-    ]
+    split_lines = re.finditer(rb"([^\r\n]*)(\r\n|\n|\r|$)", raw)
+    matches = [m for m in split_lines if m[2] or (whole and m[1])]
     return [match[1] for match in matches], [match.start() for match in matches]
 
 
@@ -200,9 +199,8 @@ def split_entries(line: str, delimiter: str) -> list[str]:
     """Returns the entries of a line, without blanks and quotes around them."""
     if delimiter == _BLANKS:
         return line.split()
-    entries = (
-        next(csv.reader([line], delimiter=delimiter)) if '"' in line else line.split(delimiter)
-    )
+    is_quoted = '"' in line
+    entries = next(csv.reader([line], delimiter=delimiter)) if is_quoted else line.split(delimiter)
     return [strip_quotes(entry) for entry in entries]
 
 
@@ -304,9 +302,8 @@ def detect_head(
     stated = {}
     notes = [f"{_format_line_count(at)} before the names"] * (at > 0)
     if units is not None and units != at:
-        stated = {
-            n: u for n, e in zip(names, above[units] or (), strict=True) if (u := _parse_unit(e))
-        }
+        pairs = zip(names, above[units] or (), strict=True)
+        stated = {n: u for n, e in pairs if (u := _parse_unit(e))}
         notes.append(f"units in line {units + 1}")
     between = first - at - 1 - (units is not None and units > at)
     notes += [f"{_format_line_count(between)} between names and rows"] * (between > 0)

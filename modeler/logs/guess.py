@@ -120,11 +120,8 @@ def guess_columns(
             "" if unit is None else _KINDS.get(unit.powers, "")
         )
         words = _split_words(template)
-        if (
-            quantity != "qc"
-            and quantity != "time"
-            and (_is_commanded(words) or {*_FALSE.split()} & {*words})
-        ):
+        is_order = _is_commanded(words) or {*_FALSE.split()} & {*words}
+        if quantity not in ("qc", "time") and is_order:
             quantity = "qc" if quantity == "q" and _is_commanded(words) else ""
         if by_duty and quantity == "tau" and re.search(r"load(?![a-z])", template.lower()):
             quantity = "duty"  # what such drives call their load is a share of the voltage
@@ -134,9 +131,8 @@ def guess_columns(
             quantity not in guesses or _rank_columns(quantity, template, labels) > ranks[quantity]
         ):
             ranks[quantity] = _rank_columns(quantity, template, labels)
-            guesses[quantity] = Guess(
-                quantity, template, tuple(labels), ("",) * len(labels), others=others
-            )
+            units = ("",) * len(labels)
+            guesses[quantity] = Guess(quantity, template, tuple(labels), units, others=others)
     if "time" not in guesses:
         taken = {name for one in guesses.values() for name in one.columns}
         free = (name for name in columns if name not in taken)
@@ -261,9 +257,9 @@ def _guess_template_role(template: str) -> str:
     commanded = _is_commanded(words)
     for word in reversed(words):
         if quantity := _KIND_OF.get(word, ""):
-            return (
-                ("qc" if quantity == "q" else "") if commanded and quantity != "time" else quantity
-            )
+            if commanded and quantity != "time":
+                return "qc" if quantity == "q" else ""
+            return quantity
     return "qc" if words and words[-1] in ("qc", "action") else ""
 
 
@@ -274,9 +270,8 @@ def _split_words(template: str) -> list[str]:
     words = [word.lower() for word in _SPLIT.split(text) if word]
     fused = [_FUSED.fullmatch(word) for word in words]
     pairs = zip(words, fused, strict=True)
-    return [
-        part for word, two in pairs for part in (filter(None, two.groups()) if two else (word,))
-    ]
+    parts = (filter(None, two.groups()) if two else (word,) for word, two in pairs)
+    return [part for some in parts for part in some]
 
 
 def _is_commanded(words: Sequence[str]) -> bool:
@@ -328,9 +323,8 @@ def _add_units(
     if any(stated_units):
         return dataclasses.replace(one, units=stated_units, why="stated")
     known = [columns[name][np.isfinite(columns[name])] for name in one.columns]
-    units = [
-        _guess_unit_by_range(one.quantity, v, slide) for v, slide in zip(known, slides, strict=True)
-    ]
+    pairs = zip(known, slides, strict=True)
+    units = [_guess_unit_by_range(one.quantity, v, slide) for v, slide in pairs]
     if one.quantity == "q":
         units = [
             _choose_unit_by_rate(rates.get(name), unit, v)
@@ -366,9 +360,8 @@ def _unify_units(units: Sequence[str], free: Sequence[bool], slides: Sequence[bo
     for unit in sorted(set(units) - {""}):
         if 2 * sum(u == unit for u in units) > sum(free):
             common_units = ["mN" if unit == "mN m" and s else unit for s in slides]
-            return [
-                u or (o if f else "") for u, o, f in zip(units, common_units, free, strict=True)
-            ]
+            parts = zip(units, common_units, free, strict=True)
+            return [u or (o if f else "") for u, o, f in parts]
     return [*units]
 
 
@@ -394,19 +387,13 @@ def _guess_unit_by_range(quantity: str, values: np.ndarray, slides: bool) -> str
             return "mm" if span > THRESHOLDS.max_axis_length else ""
         return "deg" if float(np.abs(values).max()) > THRESHOLDS.max_revolute_angle else ""
     if quantity == "tau":
-        return (
-            ("mN" if slides else "mN m")
-            if span > (THRESHOLDS.max_force if slides else THRESHOLDS.max_torque)
-            else ""
-        )
+        if span > (THRESHOLDS.max_force if slides else THRESHOLDS.max_torque):
+            return "mN" if slides else "mN m"
+        return ""
     if quantity == "duty":
-        return (
-            ""
-            if span <= THRESHOLDS.max_duty_span
-            else "%"
-            if span <= 100.0 * THRESHOLDS.max_duty_span
-            else "0.1 %"
-        )
+        if span <= THRESHOLDS.max_duty_span:
+            return ""
+        return "%" if span <= 100.0 * THRESHOLDS.max_duty_span else "0.1 %"
     return "mA" if quantity == "current" and span > THRESHOLDS.max_current else ""
 
 
@@ -438,9 +425,8 @@ def describe_non_si_columns(guesses: Sequence[Guess]) -> list[str]:
             columns = one.template.replace("{}", "*") if every else ", ".join(unit_columns)
             what = "counts of an encoder" if unit == "rev/COUNTS" else unit
             looks = "looks" if every or len(unit_columns) == 1 else "look"
-            lines.append(
-                f"{columns} {looks} like {what}, by its range; say so in [log] or with --map"
-            )
+            looked = f"{columns} {looks} like {what}, by its range"
+            lines.append(f"{looked}; say so in [log] or with --map")
     return lines
 
 
@@ -483,9 +469,8 @@ def format_log_table(
     joint_names = [joint.name for joint in joints] or [str(k + 1) for k in range(count)]
     lines: list[str] = []
     for one in guesses:
-        lines += _format_lines(
-            one, joint_names, any(line.startswith("names =") for line in lines), names
-        )
+        is_named = any(line.startswith("names =") for line in lines)
+        lines += _format_lines(one, joint_names, is_named, names)
     if find_absent_roles(guesses):
         there = {one.quantity for one in guesses}
         lines.append(
@@ -535,9 +520,8 @@ def _format_lines(
     for joint, label in zip(joint_names, labels, strict=False):
         column, own_unit = by.get(label, ("", ""))
         if own_unit and (label in one.others or not one.others):
-            lines.append(
-                f"{_format_key(one.quantity + joint)} = {_format_column(column, own_unit)}{comment}"
-            )
+            key = _format_key(one.quantity + joint)
+            lines.append(f"{key} = {_format_column(column, own_unit)}{comment}")
     return lines
 
 

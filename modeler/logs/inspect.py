@@ -195,20 +195,17 @@ def inspect_table(
         block: LogTable,
     ) -> dict[str, np.ndarray]:  # what turns out to be text has none
         none = np.full(block.rows, np.nan)
-        return {
-            name: block.read_measured(name) if block.is_numeric(name) else none for name in values
-        }
+        is_numeric = block.is_numeric
+        return {name: block.read_measured(name) if is_numeric(name) else none for name in values}
 
-    blocks: Iterable[dict[str, np.ndarray]] = (
-        [values] if every is None else map(measure_block, every)
-    )
+    blocks: Iterable[dict[str, np.ndarray]]
+    blocks = [values] if every is None else map(measure_block, every)
     if span != (None, None):
         guesses = guess_columns(values, {}, joints, names)
         values, every = _select_span(table, guesses, blocks, span), None
         blocks = [values]
-    guesses = guess_columns(
-        values, {n: table.get_unit(n) for n in values if table.get_unit(n)}, joints, names
-    )
+    units = {n: unit for n in values if (unit := table.get_unit(n))}
+    guesses = guess_columns(values, units, joints, names)
     units = {n: u for one in guesses for n, u in zip(one.columns, one.units, strict=True) if u}
     time, clock = _measure_clock(table, values, guesses)
     shown = {name: table.convert_to_unit(name, v) for name, v in values.items()}
@@ -240,11 +237,8 @@ def inspect_table(
     if clock is not None and clock.repeated_steps and every is None:
         others = (v for name, v in values.items() if table.format_name(name) != clock.column)
         coarse = describe_coarse_clock(time, others)
-    doubts = [
-        *_describe_clock(clock, coarse),
-        *find_absent_roles(guesses),
-        *describe_non_si_columns(guesses),
-    ]
+    doubts = [*_describe_clock(clock, coarse), *find_absent_roles(guesses)]
+    doubts += describe_non_si_columns(guesses)
     doubts += describe_doubtful_degrees(guesses, values)
     rest = {speed for position, speed in pairs if not is_moving(values[position])}
     doubts += check_rates(pairs, values, time)
@@ -262,11 +256,8 @@ def inspect_table(
         "" if mapping.layers else format_log_table(f, joints, tuple(values), names)
         for f in (guesses, bare)
     )
-    ranged = tuple(
-        line
-        for line in describe_non_si_columns(guesses)
-        if line not in describe_non_si_columns(bare)
-    )
+    unitless = describe_non_si_columns(bare)
+    ranged = tuple(line for line in describe_non_si_columns(guesses) if line not in unitless)
     return LogInspection(
         table.path.name,
         rows,
@@ -301,9 +292,7 @@ def _build_positions(
         known = find_unit(text) if text else None
         slides = slides if known is None else known.powers == LENGTH
         units.append("counts" if text and known is None else "m" if slides else "rad")
-        factor = (
-            1.0 if known is None or table.get_unit(name) else known.factor
-        )  # else it is SI already
+        factor = 1.0 if known is None or table.get_unit(name) else known.factor  # else it is SI
         columns.append(values[name] * factor)
     called = tuple(map(table.format_name, one.columns))
     return Positions(called, tuple(units), time, np.column_stack(columns))
@@ -436,16 +425,13 @@ def _find_extremes(time: np.ndarray, steps: np.ndarray, values: Mapping[str, np.
 def _merge_clocks(seen: Clock, clocks: Sequence[Clock], time: np.ndarray) -> Clock:
     """The clock of consecutive blocks."""
     duration = float(np.nanmax(time) - np.nanmin(time))
-    sums = {
-        name: sum(getattr(clock, name) for clock in clocks)
-        for name in ("gaps", "lost_rows", "repeated_steps", "backward_steps")
-    }
+    counted = ("gaps", "lost_rows", "repeated_steps", "backward_steps")
+    sums = {name: sum(getattr(clock, name) for clock in clocks) for name in counted}
     widest = max(clocks, key=lambda clock: clock.largest_gap)
     jitters = [clock.jitter**2 for clock in clocks if np.isfinite(clock.jitter)] or [np.nan]
     jitter = float(np.sqrt(np.mean(jitters)))
-    return dataclasses.replace(
-        widest, rate=seen.rate, tick=seen.tick, jitter=jitter, duration=duration, **sums
-    )
+    sums |= {"jitter": jitter, "duration": duration}
+    return dataclasses.replace(widest, rate=seen.rate, tick=seen.tick, **sums)
 
 
 def _measure_clock(
@@ -489,9 +475,9 @@ def _measure_clock(
 def find_usual_step(steps: np.ndarray, step: float) -> float:
     """Returns longest step, s, of an uneven clock but for the rarest; `step` of an even one."""
     known = steps[steps > 0.0]
-    return (
-        max(step, float(np.quantile(known, THRESHOLDS.usual_step_quantile))) if len(known) else step
-    )
+    if not len(known):
+        return step
+    return max(step, float(np.quantile(known, THRESHOLDS.usual_step_quantile)))
 
 
 def _find_tick(steps: np.ndarray, step: float) -> float:
@@ -529,9 +515,8 @@ def _find_limits(
     if not limits[0] < limits[1] or held.sum() > THRESHOLDS.max_held_share * rows:
         return ()
     counts = [(end, int(held[ends == end].sum())) for end in limits]
-    return tuple(
-        (end, count / rows) for end, count in counts if count > THRESHOLDS.min_limit_share * rows
-    )
+    least = THRESHOLDS.min_limit_share * rows
+    return tuple((end, count / rows) for end, count in counts if count > least)
 
 
 def _describe_clock(clock: Clock | None, coarse: str) -> list[str]:
@@ -553,9 +538,8 @@ def _describe_clock(clock: Clock | None, coarse: str) -> list[str]:
             f"{clock.largest_gap:.4g} s at {clock.largest_gap_start:.4g} s"
         )
     if clock.jitter > max(THRESHOLDS.max_jitter, clock.tick * clock.rate):
-        lines.append(
-            f"{clock.column} is not uniform: steps deviate by {format_percent(clock.jitter)} (rms)"
-        )
+        jitter = format_percent(clock.jitter)
+        lines.append(f"{clock.column} is not uniform: steps deviate by {jitter} (rms)")
     return lines
 
 
@@ -642,10 +626,5 @@ def keep_longest(marks: Iterable[Mark]) -> list[Mark]:
     by: dict[tuple[str, str], list[Mark]] = {}
     for mark in marks:
         by.setdefault((mark.kind, mark.channel), []).append(mark)
-    longest = (
-        sorted(channel_marks, key=lambda one: one.start - one.end)[:MOST]
-        for channel_marks in by.values()
-    )
-    return sorted(
-        (one for channel_marks in longest for one in channel_marks), key=lambda one: one.start
-    )
+    longest = [sorted(marks, key=lambda one: one.start - one.end)[:MOST] for marks in by.values()]
+    return sorted((one for marks in longest for one in marks), key=lambda one: one.start)

@@ -27,11 +27,8 @@ _SHOWN = 40  # names of columns that a message lists
 
 def _list_motion_names(joints: Sequence[JointSpec]) -> set[str]:
     """Our names of what is measured of joints."""
-    return {
-        f"{kind}{joint.name}"
-        for kind in ("q", "qd", "qdd", "qc", "tau", "current")
-        for joint in joints
-    }
+    kinds = ("q", "qd", "qdd", "qc", "tau", "current")
+    return {f"{kind}{joint.name}" for kind in kinds for joint in joints}
 
 
 class LogTable:
@@ -62,9 +59,8 @@ class LogTable:
         self.path = path
         mapping = mapping or LogMap()
         self.whole, self.before = whole or part is None, before
-        self.file_columns = part or read_columns(
-            path, ColumnRequest(mapping.topic, any_topic, mapping.files)
-        )
+        request = ColumnRequest(mapping.topic, any_topic, mapping.files)
+        self.file_columns = part or read_columns(path, request)
         self.rows: int = self.file_columns.rows
         self._joints = joints
         self._columns: dict[str, Column] = dict(self.file_columns.columns)
@@ -144,11 +140,9 @@ class LogTable:
             stated = find_unit(text)
             entry = MappedColumn((), where=f"{self.path}: column {column}")
         where = entry.where if entry is not None else ""
-        return (
-            None
-            if stated is None
-            else resolve_si_unit(our_name, where or our_name, stated, self._joints)
-        )
+        if stated is None:
+            return None
+        return resolve_si_unit(our_name, where or our_name, stated, self._joints)
 
     def _collect_notes(self) -> list[str]:
         """Entries of [log] that found nothing, units that nobody knows."""
@@ -156,9 +150,8 @@ class LogTable:
         for our_name, entry in self._entries.items():
             if our_name not in self._taken and our_name not in self._columns and our_name != "time":
                 lines.append(f"no column {entry.columns[0]} for {our_name}")
-        unknown = [
-            n for n, t in self.file_columns.units.items() if n in self._columns and not find_unit(t)
-        ]
+        units = self.file_columns.units.items()
+        unknown = [n for n, t in units if n in self._columns and not find_unit(t)]
         if unknown:
             named = ", ".join(
                 f'{name} "{self.file_columns.units[name]}"'
@@ -286,9 +279,7 @@ class LogTable:
         there = [column for column, _ in self.file_columns.columns]
         entry = self._entries.get(name)
         wanted = name if entry is None else entry.columns[-1]
-        other = next(
-            (our_name for our_name, column in self._taken.items() if column == wanted), None
-        )
+        other = next((name for name, column in self._taken.items() if column == wanted), None)
         hint = f" (it is taken as {other})" if other else suggest_name(wanted, there)
         head, colon, unit = wanted.rpartition(":")
         if colon and head in there:

@@ -33,10 +33,8 @@ TIME, ANGLE, HEAT = _POWERS["time"], _POWERS["angle"], _POWERS["temperature"]
 CURRENT, VOLTAGE = _POWERS["current"], _POWERS["voltage"]
 FORCE, TORQUE = _POWERS["force"], _POWERS["torque"]
 
-_KINDS = {
-    powers: f"an {name}" if name[0] == "a" else f"a {name}"
-    for name, powers in list(_POWERS.items())[:10]
-}
+_NAMED = list(_POWERS.items())[:10]
+_KINDS = {powers: f"{'an' if name[0] == 'a' else 'a'} {name}" for name, powers in _NAMED}
 
 _PREFIXED = {"m", "g", "s", "rad", "deg", "A", "V", "N", "Nm", "Hz"}
 _FACTOR = re.compile(

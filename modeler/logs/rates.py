@@ -121,11 +121,10 @@ def check_rates(
     if factor is not None and len(pairs) > 1 and steps.size:
         return [describe_clock_factor(factor, 1.0 / float(np.median(steps)))]
     for pair in pairs:
-        line = (
-            _describe_ratio(pair)
-            if np.isfinite(pair.ratio)
-            else _describe_mismatch(pair, names, values, time)
-        )
+        if np.isfinite(pair.ratio):
+            line = _describe_ratio(pair)
+        else:
+            line = _describe_mismatch(pair, names, values, time)
         lines += [line] if line else []
     return lines
 

@@ -12,6 +12,7 @@ import pyarrow as pa
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
+from modeler.logs import blocks
 from modeler.logs.arrays import (
     LEAST_ROWS,
     NamedArray,
@@ -21,13 +22,6 @@ from modeler.logs.arrays import (
     read_numpy,
 )
 from modeler.logs.bags import read_bag
-from modeler.logs.blocks import (
-    build_arrow_columns,
-    read_csv,
-    read_dataset,
-    read_parquet,
-    read_sheets,
-)
 from modeler.logs.columns import Column, ColumnRequest, Columns, NotNumericError
 from modeler.logs.datasets import INFO, flatten_table
 from modeler.logs.dialect import TEXTS
@@ -97,9 +91,8 @@ def read_files(places: Mapping[Path, str], where: Path, reader: Reader) -> Colum
     notes = _collect_notes((part.path.name, part.content.notes) for part in parts)
     read = _collect_notes((part.path.name, part.content.reading_notes) for part in parts)
     reading_notes = (summary, *joined, *read)
-    return Columns(
-        tuple(columns), first.content.rows, units, notes, rate=rate, reading_notes=reading_notes
-    )
+    rows = first.content.rows
+    return Columns(tuple(columns), rows, units, notes, rate=rate, reading_notes=reading_notes)
 
 
 def _read_part(path: Path, key: str, reader: Reader) -> _FilePart:
@@ -141,17 +134,14 @@ def _join_by_time(parts: Sequence[_FilePart], where: Path) -> tuple[list[_FilePa
         return [*parts], []
     steps = [float(np.median(np.diff(t))) for t in times]
     slow = int(np.argmax(steps))
-    if (
-        len({*map(len, times)}) == 1
-        and np.ptp(times, axis=0).max() <= THRESHOLDS.max_clock_offset * steps[slow]
-    ):
+    is_equal_length = len({*map(len, times)}) == 1
+    if is_equal_length and np.ptp(times, axis=0).max() <= THRESHOLDS.max_clock_offset * steps[slow]:
         return [*parts], []
     begin, end = max(t[0] for t in times), min(t[-1] for t in times)
     rows = times[slow][(times[slow] >= begin) & (times[slow] <= end)]
     if len(rows) < LEAST_ROWS:
-        spans = (
-            f"{p.path.name} {t[0]:.7g} to {t[-1]:.7g}" for p, t in zip(parts, times, strict=True)
-        )
+        pairs = zip(parts, times, strict=True)
+        spans = (f"{p.path.name} {t[0]:.7g} to {t[-1]:.7g}" for p, t in pairs)
         raise DataError(
             f"{where}: the times of its files have less than {LEAST_ROWS} rows in common: "
             f"{', '.join(spans)}; expected one clock in the same unit; shift or convert one"
@@ -168,9 +158,8 @@ def _join_by_time(parts: Sequence[_FilePart], where: Path) -> tuple[list[_FilePa
             if column.is_numeric and (is_slow or name != part.clock)
         )
         content = dataclasses.replace(part.content, columns=columns, rows=len(rows))
-        made.append(
-            dataclasses.replace(part, content=content, clock=part.clock if is_slow else None)
-        )
+        clock = part.clock if is_slow else None
+        made.append(dataclasses.replace(part, content=content, clock=clock))
     rates = (f"{p.path.name} {1.0 / s:.4g}" for p, s in zip(parts, steps, strict=True))
     return made, [
         f"joined by time, {end - begin:.4g} long, on the rows of {parts[slow].path.name}; rows per "
@@ -206,10 +195,8 @@ def _compare_clocks(parts: Sequence[_FilePart]) -> tuple[_FilePart | None, str]:
     if not timed:
         return None, ""
     first, time, start = timed[0]
-    off = [
-        float(np.nanmax(np.abs(other_time + b - start - time), initial=0.0))
-        for _, other_time, b in timed
-    ]
+    shifts = (other_time + b - start - time for _, other_time, b in timed)
+    off = [float(np.nanmax(np.abs(shift), initial=0.0)) for shift in shifts]
     step = float(np.median(np.abs(np.diff(time)))) if len(time) > 1 else 0.0
     return first, f", whose clocks are up to {max(off):.2g} apart: that of {first.path.name}" * (
         max(off) > 1e-6 * step
@@ -273,13 +260,12 @@ def build_frame_columns(frame: InMemory, where: str, joints: Sequence[JointSpec]
         DataError: no frame, or nothing that could be a log.
     """
     if isinstance(frame, Mapping):
-        return build_columns(
-            Path(where), "dict", list(_list_arrays(frame, where, joints)), ColumnRequest()
-        )
+        arrays = list(_list_arrays(frame, where, joints))
+        return build_columns(Path(where), "dict", arrays, ColumnRequest())
     try:
         table = pa.table(frame)
         table = table.rename_columns([_name_column(field, table) for field in table.schema])
-        return build_arrow_columns(flatten_table(table, None), 0, find_origins(table))
+        return blocks.build_arrow_columns(flatten_table(table, None), 0, find_origins(table))
     except (pa.ArrowException, TypeError, ValueError) as error:
         message = " ".join(str(error).split())[:200]
         raise DataError(
@@ -333,9 +319,9 @@ def split_joints(name: str, shape: tuple[int, ...], joints: Sequence[JointSpec])
 
 
 _READERS: Mapping[str, Callable[[Path, ColumnRequest], Columns]] = {
-    ".parquet": read_parquet,
-    **dict.fromkeys(TEXTS, read_csv),
-    ".xlsx": read_sheets,
+    ".parquet": blocks.read_parquet,
+    **dict.fromkeys(TEXTS, blocks.read_csv),
+    ".xlsx": blocks.read_sheets,
     ".mat": read_mat,
     ".h5": read_hdf5,
     ".hdf5": read_hdf5,
@@ -383,9 +369,8 @@ def read_columns(path: Path, wanted: ColumnRequest) -> Columns:
 
 def _locate_parts(path: Path, files: Mapping[str, str]) -> dict[Path, str]:
     """The files that [log] names, in a folder or with a beginning of all their names."""
-    places = {
-        key: path / end if path.is_dir() else Path(f"{path}{end}") for key, end in files.items()
-    }
+    is_folder = path.is_dir()
+    places = {k: path / end if is_folder else Path(f"{path}{end}") for k, end in files.items()}
     missing = [place for place in places.values() if not place.is_file()]
     if missing:
         raise DataError(
@@ -399,7 +384,7 @@ def _read_folder(path: Path, wanted: ColumnRequest) -> Columns:
     if (path / BAG).is_file():
         return read_bag(path, wanted)
     if (path / INFO).is_file():
-        return read_dataset(path, wanted)
+        return blocks.read_dataset(path, wanted)
     files = [
         p
         for p in sorted(path.iterdir())

@@ -81,9 +81,8 @@ def join_stamps(
         both = by_name[seconds], by_name[fraction]
         if all(column.is_numeric for column in both):
             made[seconds] = name, JoinedStamp(*both, unit)
-            notes.append(
-                f"{name} is {seconds} + {unit:g} {fraction}, counted from the first second"
-            )
+            stamp = f"{seconds} + {unit:g} {fraction}"
+            notes.append(f"{name} is {stamp}, counted from the first second")
     listed = list[tuple[str, Column]]()
     for name, column in columns:
         listed += [made[name]] if name in made else []

@@ -105,11 +105,9 @@ def choose_row_spacing(step: float, cutoff: float, decimation: int | None) -> in
 def compute_reach(step: float, cutoff: float) -> int:
     """Returns the samples on either side of a row's centre that have a weight."""
     spread = SPREAD / (cutoff * step) if cutoff > 0.0 else 0.0
-    return (
-        int(np.ceil(THRESHOLDS.kernel_reach * spread))
-        if spread > THRESHOLDS.min_kernel_samples
-        else 0
-    )
+    if spread > THRESHOLDS.min_kernel_samples:
+        return int(np.ceil(THRESHOLDS.kernel_reach * spread))
+    return 0
 
 
 def build_row_filter(centres: np.ndarray, samples: int, step: float, cutoff: float) -> RowFilter:

@@ -64,9 +64,8 @@ def find_independent_columns(R: np.ndarray, names: Sequence[str]) -> Rank:
     """
     lengths = np.linalg.norm(R, axis=0)
     active = np.flatnonzero(lengths > THRESHOLDS.min_column_norm * lengths.max(initial=0.0))
-    dropped_columns = [
-        DroppedColumn(names[i], (), 0.0) for i in range(len(names)) if i not in set(active)
-    ]
+    inactive = (i for i in range(len(names)) if i not in set(active))
+    dropped_columns = [DroppedColumn(names[i], (), 0.0) for i in inactive]
     if not active.size:
         return Rank((), tuple(dropped_columns), 0.0, 0.0)
     triangle, order = qr(R[:, active] / lengths[active], mode="r", pivoting=True)
@@ -126,9 +125,8 @@ def compute_whitening(gram: np.ndarray, cutoff: float) -> np.ndarray:
     length = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
     values, vectors = np.linalg.eigh(gram / np.outer(length, length))
     is_significant = values > cutoff * float(values.max(initial=1e-300))
-    return np.asarray(
-        vectors[:, is_significant] / np.sqrt(values[is_significant]) / length[:, None]
-    )
+    significant = vectors[:, is_significant]
+    return np.asarray(significant / np.sqrt(values[is_significant]) / length[:, None])
 
 
 # The data of a fit as one small triangle per joint: everything else is computed from these.
@@ -337,9 +335,8 @@ def compute_weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
     """
     order = np.argsort(values)
     total = np.cumsum(weights[order])
-    return float(
-        values[order][np.searchsorted(total, (0.5 - THRESHOLDS.weight_rounding) * total[-1])]
-    )
+    half = (0.5 - THRESHOLDS.weight_rounding) * total[-1]
+    return float(values[order][np.searchsorted(total, half)])
 
 
 # Quasi-Newton descent inside an open set; evolution, a search that needs values only.
@@ -397,10 +394,8 @@ def minimise_bfgs(
         curve, fresh = _update_inverse_hessian(curve, ahead - x, after - slope, fresh), False
         x, value, slope = ahead, new, after
         values.append(value)
-        if (
-            len(values) > THRESHOLDS.stall_steps
-            and values[-1 - THRESHOLDS.stall_steps] - value < tolerance
-        ):
+        steps = THRESHOLDS.stall_steps
+        if len(values) > steps and values[-1 - steps] - value < tolerance:
             break
     return x
 

@@ -76,9 +76,7 @@ def compute_local_threshold(departed: Sequence[np.ndarray], floor: float, share:
         floor: `compute_outlier_threshold` of the whole channel.
         share: of the values that may be lone.
     """
-    beyond = sum(
-        int(np.count_nonzero(np.abs(stretch_departures) > floor)) for stretch_departures in departed
-    )
+    beyond = sum(int(np.count_nonzero(np.abs(part) > floor)) for part in departed)
     if beyond <= THRESHOLDS.min_rare_values:
         return floor
     return max(floor, compute_outlier_threshold(np.concatenate(departed), 0.0, share))
@@ -95,11 +93,8 @@ def find_isolated_outliers(departed: np.ndarray, floor: float) -> np.ndarray:
     """
     size = np.abs(departed)
     size[: THRESHOLDS.unjudged_ends] = size[max(0, len(size) - THRESHOLDS.unjudged_ends) :] = 0.0
-    places = [
-        int(k)
-        for k in np.flatnonzero(size > floor)
-        if size[k] > NEAR * compute_nearby_level(size, int(k))
-    ]
+    levels = ((int(k), compute_nearby_level(size, int(k))) for k in np.flatnonzero(size > floor))
+    places = [k for k, level in levels if size[k] > NEAR * level]
     return np.array(places, dtype=int)
 
 
@@ -120,11 +115,9 @@ def compute_noise_memory(cutoff: float) -> float:
     cable that pulls, a temperature are not. Rows of a narrow band are correlated longer by
     themselves.
     """
-    return (
-        max(THRESHOLDS.min_correlation_time, THRESHOLDS.correlation_periods / cutoff)
-        if cutoff
-        else THRESHOLDS.min_correlation_time
-    )
+    if cutoff:
+        return max(THRESHOLDS.min_correlation_time, THRESHOLDS.correlation_periods / cutoff)
+    return THRESHOLDS.min_correlation_time
 
 
 def estimate_recurring_share(
@@ -143,9 +136,8 @@ def estimate_recurring_share(
     """
     products, square = [np.zeros(0)], 0.0
     logs = [(run == k, step) for k, step in enumerate(later) if step]
-    logs = [
-        (is_of_log, step) for is_of_log, step in logs if is_of_log.sum() >= THRESHOLDS.min_log_rows
-    ]
+    least = THRESHOLDS.min_log_rows
+    logs = [(is_of_log, step) for is_of_log, step in logs if is_of_log.sum() >= least]
     for is_of_log, step in logs:
         second = interpolate_between_gaps(time[is_of_log], r[is_of_log], time[is_of_log] + step)
         both = np.isfinite(second)
@@ -295,11 +287,9 @@ def find_repeated_rows(
 def find_longest_usual_run(values: np.ndarray) -> int:
     """Returns the samples of the longest run of equal values (n,), the three longest left out."""
     _, length = find_run_lengths(np.concatenate([[True], np.diff(values) != 0.0]))
-    return (
-        int(np.sort(length)[-THRESHOLDS.ignored_long_runs - 1])
-        if len(length) > THRESHOLDS.ignored_long_runs
-        else len(values)
-    )
+    if len(length) > THRESHOLDS.ignored_long_runs:
+        return int(np.sort(length)[-THRESHOLDS.ignored_long_runs - 1])
+    return len(values)
 
 
 def find_frozen_runs(values: np.ndarray, position: np.ndarray, usual: int) -> list[tuple[int, int]]:
@@ -314,11 +304,8 @@ def find_frozen_runs(values: np.ndarray, position: np.ndarray, usual: int) -> li
     """
     starts, length = find_run_lengths(np.concatenate([[True], np.diff(values) != 0.0]))
     long = length > max(THRESHOLDS.min_channel_samples, THRESHOLDS.min_frozen_length * usual)
-    least = (
-        2.0 * THRESHOLDS.min_motion_deviations * estimate_channel_noise(position)
-        if long.any()
-        else 0.0
-    )
+    noise = estimate_channel_noise(position) if long.any() else 0.0
+    least = 2.0 * THRESHOLDS.min_motion_deviations * noise
     return [
         (int(start) + 1, int(start + count))
         for start, count in zip(starts[long], length[long], strict=True)
@@ -351,9 +338,8 @@ def estimate_hold_length(values: np.ndarray) -> int:
     both = np.append(False, jumps[:-1] & jumps[1:])
     runs = length[:-1][both]
     _, again = np.unique(there[starts[:-1][both]], return_counts=True)
-    if len(runs) < THRESHOLDS.min_hold_runs or again.max() > THRESHOLDS.max_switch_share * len(
-        runs
-    ):
+    most = THRESHOLDS.max_switch_share * len(runs)
+    if len(runs) < THRESHOLDS.min_hold_runs or again.max() > most:
         return 1
     usual = float(np.median(runs))
     alike = np.mean(np.abs(runs - usual) <= max(1.0, 0.3 * usual)) > THRESHOLDS.min_equal_runs

@@ -109,9 +109,8 @@ def _average_welch_density(
     total, weight = np.zeros(window // 2 + 1), 0.0
     for piece in pieces:
         counts = float(np.isfinite(piece).sum())
-        density = estimate_welch_density(
-            np.nan_to_num(piece), min(window, piece.size), window, period
-        )
+        filled = np.nan_to_num(piece)
+        density = estimate_welch_density(filled, min(window, piece.size), window, period)
         total = total + density * piece.size  # = counts * (density scaled by size / counts)
         weight += counts
     return np.fft.rfftfreq(window, period)[1:], total[1:] / weight
@@ -197,11 +196,9 @@ def compute_order_spectrum(
     stroke = float(np.ptp(q)) if q.size else 0.0
     if stroke <= 0.0 or q.size < THRESHOLDS.min_order_samples:
         return None
-    highest = (
-        THRESHOLDS.max_order
-        if unit == "rad"
-        else THRESHOLDS.max_order * 2.0 * np.pi / max(stroke, 1e-6)
-    )
+    highest = THRESHOLDS.max_order
+    if unit != "rad":
+        highest = THRESHOLDS.max_order * 2.0 * np.pi / max(stroke, 1e-6)
     cells = int(min(2**19, max(1024, stroke * highest / (2 * np.pi) * THRESHOLDS.cells_per_wave)))
     place = np.minimum(((q - q.min()) / stroke * cells).astype(int), cells - 1)
     total = np.bincount(place, r, cells)
@@ -210,9 +207,7 @@ def compute_order_spectrum(
     order = np.arange(len(spectrum)) * (2.0 * np.pi / stroke) * cells / length
     amplitude = np.abs(spectrum)
     resolution = 2.0 * np.pi / stroke
-    is_in_range = (
-        (order >= THRESHOLDS.min_waves * resolution) & (order <= highest) & (order <= reached)
-    )
+    is_in_range = (order >= THRESHOLDS.min_waves * resolution) & (order <= min(highest, reached))
     order, amplitude = order[is_in_range], amplitude[is_in_range]
     if order.size < 32:
         return None
@@ -243,9 +238,8 @@ def find_longest_stretch(time: np.ndarray, step: float) -> slice:
     """
     if len(time) < 2 or time[-1] - time[0] < THRESHOLDS.min_pause_steps * step * len(time):
         return slice(0, len(time))
-    ends = np.concatenate(
-        [[0], np.flatnonzero(np.diff(time) > THRESHOLDS.min_pause_steps * step) + 1, [len(time)]]
-    )
+    pauses = np.flatnonzero(np.diff(time) > THRESHOLDS.min_pause_steps * step)
+    ends = np.concatenate([[0], pauses + 1, [len(time)]])
     longest = int(np.argmax(np.diff(ends)))
     return slice(int(ends[longest]), int(ends[longest + 1]))
 
@@ -269,9 +263,8 @@ def estimate_lap_period(since: np.ndarray, q: np.ndarray) -> float:
         return 0.0
     likeness = np.ones(count // 2 + 1)
     for x in moved:
-        likeness = np.minimum(
-            likeness, _compute_self_similarity((x - x.mean()) / x.std(), count // 2 + 1)
-        )
+        scaled = (x - x.mean()) / x.std()
+        likeness = np.minimum(likeness, _compute_self_similarity(scaled, count // 2 + 1))
     first = int(THRESHOLDS.min_lap_seconds / step)
     high = np.flatnonzero(likeness[first:] > THRESHOLDS.min_repeat_correlation) + first
     low = np.flatnonzero(likeness < 0.8)

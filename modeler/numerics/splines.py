@@ -64,21 +64,17 @@ def fit_nonparametric_baseline(
     rows = [np.flatnonzero(fold == f) for f in np.unique(fold)]
     enough = y.size >= LEAST and len(rows) >= 3 and energy != 0.0
     every = ((name, _standardise_columns(values)) for name, values in sets) if enough else ()
-    predictions = {
-        name: _cross_predict(values, y, rows) for name, values in every if values.shape[1]
-    }
+    filled = ((name, values) for name, values in every if values.shape[1])
+    predictions = {name: _cross_predict(values, y, rows) for name, values in filled}
     if not predictions:
         return NonparametricBaseline(np.full(y.size, mean), 0.0)
-    left = [
-        float(np.sum((y - _combine_predictions(columns, y, rows)) ** 2))
-        for columns in predictions.values()
-    ]
+    separate = (_combine_predictions(columns, y, rows) for columns in predictions.values())
+    left = [float(np.sum((y - prediction) ** 2)) for prediction in separate]
     alone = {name: max(0.0, 1.0 - e / energy) for name, e in zip(predictions, left, strict=True)}
     predicted = _combine_predictions(np.concatenate([*predictions.values()], axis=2), y, rows)
     gain = y**2 - (y - predicted) ** 2
-    parts = np.add.reduceat(
-        gain, np.arange(THRESHOLDS.share_parts) * y.size // THRESHOLDS.share_parts
-    )
+    starts = np.arange(THRESHOLDS.share_parts) * y.size // THRESHOLDS.share_parts
+    parts = np.add.reduceat(gain, starts)
     share, sigma = float(gain.sum()), float(np.sqrt(THRESHOLDS.share_parts) * parts.std(ddof=1))
     return NonparametricBaseline(predicted + mean, max(0.0, share / energy), sigma / energy, alone)
 
@@ -117,10 +113,8 @@ def _combine_predictions(columns: np.ndarray, y: np.ndarray, rows: list[np.ndarr
     predicted = np.zeros(y.size)
     for f, fold_rows in enumerate(rows):
         fold_predictions = columns[f]
-        gram = (
-            fold_predictions.T @ fold_predictions
-            - fold_predictions[fold_rows].T @ fold_predictions[fold_rows]
-        )
+        part = fold_predictions[fold_rows]
+        gram = fold_predictions.T @ fold_predictions - part.T @ part
         side = fold_predictions.T @ y - fold_predictions[fold_rows].T @ y[fold_rows]
         scale = float(np.trace(gram)) / len(gram)
         if scale > 0.0:
@@ -289,12 +283,8 @@ def generate_function_sets(measured: Measurements) -> Iterator[tuple[str, np.nda
             yield str(k), _build_other_joint_functions(m, k, way, generator)
     near = np.column_stack([m.q, m.v])
     yield "sum", np.hstack([build_hat_functions(x, THRESHOLDS.sum_knots) for x in (*m.q.T, *m.v.T)])
-    yield (
-        "wide",
-        np.column_stack(
-            [near, m.a, m.load, m.torque, _draw_fourier_features(near, _WIDE, generator)]
-        ),
-    )
+    features = _draw_fourier_features(near, _WIDE, generator)
+    yield "wide", np.column_stack([near, m.a, m.load, m.torque, features])
     yield "pairs", _draw_fourier_features(near, _PAIRS, generator, few=2)
     yield from m.extra_sets.items()
 

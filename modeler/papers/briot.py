@@ -15,16 +15,8 @@ from modeler.core.choices import read_builtin_robot
 from modeler.core.figure import BLACK, ORANGE, SKY, Curve, Panel, Picture, Style
 from modeler.core.table import format_percent
 from modeler.estimation import GainFit, Payload, identify_gains, identify_with_payloads
-from modeler.papers.methods import (
-    MethodRow,
-    MethodTable,
-    Outcome,
-    build_log,
-    judge_outcome,
-    judge_recovery,
-    read_quotation,
-    read_table,
-)
+from modeler.papers import methods
+from modeler.papers.methods import MethodRow, MethodTable, Outcome, judge_outcome, read_quotation
 from modeler.papers.paper import Paper
 from modeler.regression import Log, observe
 from modeler.robot import Limits, Robot, parse_robot_text, replace_drive_gains
@@ -49,20 +41,14 @@ SETTING = (
 
 def reproduce_briot(paper: Paper, report: Callable[[float], None]) -> list[MethodTable]:
     """Reproduces gains, slides and motors of Table 3, and the second load by both sets of gains."""
-    table = read_table(paper, "Table 3")
+    table = methods.read_table(paper, "Table 3")
     gains = {f"1{k}": table[f"gtau{k}"][0] for k in "123"}
     (maker,) = read_quotation(paper, "637pi")[1:]
-    mass, second = (
-        read_quotation(paper, "M7 = 1.983kg")[0],
-        read_quotation(paper, "a second payload")[0],
-    )
+    mass = read_quotation(paper, "M7 = 1.983kg")[0]
+    second = read_quotation(paper, "a second payload")[0]
     # The motors' effects only, and gains of 1: logs in drive units.
-    text = re.sub(
-        r"^(rotor_inertia|viscous|coulomb) = .*$",
-        r'\1 = ["1{i}"]',
-        read_builtin_robot(ROBOT),
-        flags=re.M,
-    )
+    pattern = r"^(rotor_inertia|viscous|coulomb) = .*$"
+    text = re.sub(pattern, r'\1 = ["1{i}"]', read_builtin_robot(ROBOT), flags=re.M)
     robot = parse_robot_text(replace_drive_gains(text, dict.fromkeys(JOINTS, 1.0)), ROBOT)
     derivation = derive(robot)
     compiled = load_cached_model(generate(derivation))
@@ -122,7 +108,9 @@ def _simulate_currents(
     """What is logged: torque over gain, with noise."""
     tau = run.tau[:, [run.joints.index(joint) for joint in JOINTS]]
     tau = tau + NOISE * np.sqrt(np.mean(tau**2, axis=0)) * rng.normal(size=tau.shape)
-    return build_log(run, JOINTS, tau / np.array([gains[j] for j in JOINTS]), "current{} x 1")
+    return methods.build_log(
+        run, JOINTS, tau / np.array([gains[j] for j in JOINTS]), "current{} x 1"
+    )
 
 
 def _weigh_load(
@@ -143,7 +131,9 @@ def _build_table_3(table: Mapping[str, tuple[float, ...]], gain_fit: GainFit) ->
         for p in (*gain_fit.result.gains, *gain_fit.result.parameters):
             if p.name == name and (p.name[0] == "g" or p.name[:-1] in _SET):
                 printed = f"{values[0]:.5g} ({values[-1]:.3g} %)"
-                rows.append(judge_recovery(word, printed, values[0], p.value, p.sigma or 0.0))
+                rows.append(
+                    methods.judge_recovery(word, printed, values[0], p.value, p.sigma or 0.0)
+                )
     last = gain_fit.result.singular_values[-2:]
     why = "singular values of the currents beside the model: a gap, or no gains"
     outcome = judge_outcome(last[0] > 2 * last[1], Outcome.DERIVED)
@@ -216,9 +206,7 @@ def _build_second_load_table(paper: Paper, cases: list[tuple[float, float]]) -> 
     names = ("case 1: the maker's gains", "case 2: the identified gains")
     why = f"within {width:g} kg, the paper's 2 sigma"
     for which, theirs, (ours, sigma) in zip(names, printed, cases, strict=True):
-        mass_text, outcome = (
-            f"{ours:.4f} +- {sigma:.2g} kg",
-            judge_outcome(abs(ours - theirs) <= width),
-        )
+        mass_text = f"{ours:.4f} +- {sigma:.2g} kg"
+        outcome = judge_outcome(abs(ours - theirs) <= width)
         rows.append(MethodRow(which, f"{theirs:g} kg", mass_text, outcome, why))
     return MethodTable("The second load, weighed by the robot", SETTING[:1], tuple(rows))

@@ -102,10 +102,9 @@ def _build_rows(
             ),
         ]
     rows = [_build_row("(1) Jp^-1", "Ld = Jp^-1 V", of["Jpinv"] @ of["Jp"], c["Jpinv"])]
-    rows += [
-        _build_row(f"(2) J{k}^-1", f"qd{k} = J{k}^-1 V", of[f"J{k}inv"] @ of["Jp"], c[f"J{k}inv"])
-        for k in legs
-    ]
+    for k in legs:
+        name, ours = f"(2) J{k}^-1", of[f"J{k}inv"] @ of["Jp"]
+        rows.append(_build_row(name, f"qd{k} = J{k}^-1 V", ours, c[f"J{k}inv"]))
     rows += [
         _build_row(f"(25) Dm{k}", "ddotq1i, dotq1i, sign(dotq1i), 1", drive, c[f"Dm{k}"])
         for k, drive in zip(legs, drives, strict=True)
@@ -129,10 +128,8 @@ def _build_row(
     if scan is None:
         return MethodRow(f"{what}, {size}", printed, f"{error:.1e}", judge_outcome(error < SAME))
     well = judge_outcome(error < SAME and _compute_relative_error(scan, c) > WRONG, Outcome.DERIVED)
-    printed_text, why = (
-        f"{printed}: {_compute_relative_error(scan, c):.2g}",
-        "with the inverse of J_i that equal power demands",
-    )
+    printed_text = f"{printed}: {_compute_relative_error(scan, c):.2g}"
+    why = "with the inverse of J_i that equal power demands"
     return MethodRow(f"{what}, {size}", printed_text, f"{error:.1e}", well, why)
 
 
@@ -199,11 +196,8 @@ def compute_condition_numbers(
     sums = [every[ten].sum(axis=0) for ten in tens]
     few = [_compute_condition_number(gram[:ESSENTIAL, :ESSENTIAL]) for gram in sums]
     chosen = min(_exchange_motions(every, ten) for ten in tens[:STARTS])
-    return (
-        np.sort([_compute_condition_number(gram) for gram in sums]),
-        chosen,
-        float(np.median(few)),
-    )
+    conditions = np.sort([_compute_condition_number(gram) for gram in sums])
+    return conditions, chosen, float(np.median(few))
 
 
 def _exchange_motions(every: np.ndarray, ten: np.ndarray) -> float:
@@ -251,13 +245,10 @@ def build_motion_table(
         table.append(MethodRow(_format_limits(limits), f"{all_}; {few}", ours, Outcome.SHOWN, why))
         reached += [chosen, drawn[-1]] if limits is not robot_limits else []
     for limits in (robot_limits, cube[1]):
-        what, condition = (
-            f"Fourier series, {_format_limits(limits)}",
-            _search_condition_number(compiled, limits, home),
-        )
-        table.append(
-            MethodRow(what, all_, f"{condition:.4g}", Outcome.SHOWN, "`modeler excite`, 10 s")
-        )
+        what = f"Fourier series, {_format_limits(limits)}"
+        condition = _search_condition_number(compiled, limits, home)
+        ours = f"{condition:.4g}"
+        table.append(MethodRow(what, all_, ours, Outcome.SHOWN, "`modeler excite`, 10 s"))
     least, most = min(reached), max(reached)
     table.append(
         MethodRow(
@@ -279,10 +270,8 @@ def build_motion_table(
 
 
 def _format_limits(limits: Limits) -> str:
-    return (
-        f"{limits.lower:.3f} to {limits.upper:.3f} m, {limits.speed:g} m/s, "
-        f"{limits.acceleration:g} m/s2"
-    )
+    reach = f"{limits.lower:.3f} to {limits.upper:.3f} m"
+    return f"{reach}, {limits.speed:g} m/s, {limits.acceleration:g} m/s2"
 
 
 def _search_condition_number(compiled: CompiledModel, limits: Limits, home: np.ndarray) -> float:
@@ -339,10 +328,8 @@ def reproduce_guegan(paper: Paper, report: Callable[[float], None]) -> list[Meth
     blocks = build_block_table((each, load_cached_model(generate(each))), (derivation, compiled))
     observation, exact = _simulate_logs(derivation.robot, truth, compiled, report)
     full, reduced = identify(observation), identify(_select_parameters(observation, truth))
-    printed = [
-        read_table(paper, f"{place}, condition number")["Condition"][0]
-        for place in ("Table 2", "Table 3")
-    ]
+    places = ("Table 2, condition number", "Table 3, condition number")
+    printed = [read_table(paper, place)["Condition"][0] for place in places]
     robot_limits, rows = derivation.robot.limits["11"], read_quotation(paper, "65814 x 23")[0]
     return [
         blocks,
@@ -465,9 +452,8 @@ def _build_essential_table(
     printed: Mapping[str, tuple[float, ...]], full: FitResult, reduced: FitResult
 ) -> MethodTable:
     """Table 3, its selection, and both condition numbers."""
-    rows = _compare_parameters(
-        printed, {name: value for name, (value, _) in printed.items()}, reduced
-    )
+    plain = {name: value for name, (value, _) in printed.items()}
+    rows = _compare_parameters(printed, plain, reduced)
     left = [p.name for p in full.parameters if not p.essential]
     theirs, ours = str(len(full.parameters) - len(printed)), f"{len(left)} by the F-test"
     rows.append(MethodRow("left out", theirs, ours, Outcome.SHOWN, ", ".join(left)))
@@ -485,7 +471,6 @@ def _build_condition_table(
         rows.append(MethodRow(what, f"{theirs:g}", number, Outcome.SHOWN, why))
     fall, ours = printed[0] / printed[1], full.condition_number / reduced.condition_number
     outcome = judge_outcome(min(fall, ours) > FALL, Outcome.HOLDS)
-    rows.append(
-        MethodRow("their ratio", f"{fall:.3g}", f"{ours:.3g}", outcome, f"more than {FALL:g}")
-    )
+    bound = f"more than {FALL:g}"
+    rows.append(MethodRow("their ratio", f"{fall:.3g}", f"{ours:.3g}", outcome, bound))
     return MethodTable("Condition numbers of W", (), tuple(rows))

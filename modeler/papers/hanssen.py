@@ -17,15 +17,8 @@ from modeler.core.expression import parse_expression
 from modeler.core.figure import BLUE, GREEN, GREY, VERMILLION, Curve, Panel, Picture, Style
 from modeler.core.table import format_percent
 from modeler.estimation import JointDirections, TwoStepFit, identify_in_two_steps
-from modeler.papers.methods import (
-    MethodRow,
-    MethodTable,
-    Outcome,
-    build_log,
-    judge_outcome,
-    judge_recovery,
-    read_quotation,
-)
+from modeler.papers import methods
+from modeler.papers.methods import MethodRow, MethodTable, Outcome, judge_outcome, read_quotation
 from modeler.papers.paper import Paper
 from modeler.regression import observe
 from modeler.robot import Limits, Robot, compute_joint_directions, parse_robot_text
@@ -53,9 +46,8 @@ def reproduce_hanssen(paper: Paper, report: Callable[[float], None]) -> list[Met
     """Reproduces J11 in two steps, the singular values of Phi, and which parameters follow."""
     names = tuple(f"PJ{k}" for k in range(1, 8))
     truth = dict(zip(names, read_quotation(paper, "J11 = 0.0398")[-7:], strict=True))
-    robot = parse_robot_text(
-        read_builtin_robot("wrist") + '\n[effects]\ncoulomb = "all"\n', "wrist"
-    )
+    text = read_builtin_robot("wrist") + '\n[effects]\ncoulomb = "all"\n'
+    robot = parse_robot_text(text, "wrist")
     derivation = derive(robot)
     compiled = load_cached_model(generate(derivation))
     settings = SimulationSettings(
@@ -69,10 +61,9 @@ def reproduce_hanssen(paper: Paper, report: Callable[[float], None]) -> list[Met
     )
     run = simulate(_build_machine(robot, derivation, truth), settings)
     report(0.5)
-    observation = observe(compiled, [build_log(run, run.joints, run.tau)])
-    steps = identify_in_two_steps(
-        compiled, observation, JointDirections(compute_joint_directions(robot))
-    )
+    observation = observe(compiled, [methods.build_log(run, run.joints, run.tau)])
+    directions = JointDirections(compute_joint_directions(robot))
+    steps = identify_in_two_steps(compiled, observation, directions)
     monomials = next(line.quote for line in paper.lines if line.check == "monomials").split(";")
     tables = [*_build_inertia_tables(paper, truth, steps, monomials), _build_one_step_table(steps)]
     tables.append(_build_figure_2(_build_machine(robot, derivation, truth), compiled, steps))
@@ -107,14 +98,15 @@ def _build_inertia_tables(
     """P = pinv(Phi) J11 with rows as sure as step 1 is of them."""
     moved = [c for c in steps.steps.configurations if c.joint == 0]
     inertia, sigma = np.array([c.compute_coefficients(0)[0][1:] for c in moved]).T
-    functions = [
-        parse_expression(text.strip().replace("^", "**").replace(" ", "*")) for text in monomials
-    ]
+    texts = (text.strip().replace("^", "**").replace(" ", "*") for text in monomials)
+    functions = [parse_expression(text) for text in texts]
     phi = np.array([[f.evaluate(_compute_trigonometry(c.pose)) for f in functions] for c in moved])
     inverse = np.linalg.pinv(phi / sigma[:, None])
     values, deviations = inverse @ (inertia / sigma), np.linalg.norm(inverse, axis=1)
     rows = [
-        judge_recovery(name, f"{truth[name]:g}", truth[name], float(value), float(deviation))
+        methods.judge_recovery(
+            name, f"{truth[name]:g}", truth[name], float(value), float(deviation)
+        )
         for name, value, deviation in zip(truth, values, deviations, strict=True)
     ]
     return [
@@ -147,10 +139,8 @@ def _build_one_step_table(steps: TwoStepFit) -> MethodTable:
     two, one = steps.result, steps.one_step
     known = [sum(p.sigma is not None for p in fit.parameters) for fit in (two, one)]
     errors = [format_percent(fit.relative_error) for fit in (two, one)]
-    text, why = (
-        "{} in two steps, {} in one",
-        "joints that stand with dry friction show nothing of J12",
-    )
+    text = "{} in two steps, {} in one"
+    why = "joints that stand with dry friction show nothing of J12"
     rows = (
         MethodRow("parameters found", "-", text.format(*known), Outcome.SHOWN, why),
         MethodRow("relative error of the torques", "-", text.format(*errors), Outcome.SHOWN),
@@ -170,7 +160,7 @@ def _build_figure_2(machine: Robot, compiled: CompiledModel, steps: TwoStepFit) 
     )
     run = simulate(machine, settings)
     beta = np.array([parameter.value for parameter in steps.result.parameters])
-    (part,) = observe(compiled, [build_log(run, run.joints, run.tau)]).stretches
+    (part,) = observe(compiled, [methods.build_log(run, run.joints, run.tau)]).stretches
     moved, known = part.segment, part.usable[:, 0]  # at rest dry friction is anything
     time, torque = moved.time, moved.tau[:, 0]
     model = (compiled.base_regressor(moved.q, moved.qd, moved.qdd) @ beta)[:, 0]
@@ -233,11 +223,8 @@ def _build_known_table(paper: Paper, derivation: Derivation) -> MethodTable:
     rows = [MethodRow(what, f"{claim:g}", str(len(determined_parameters)), outcome, why)]
     for size, expected in ((int(rest), 0), (formulas.count_smallest_set(system), 61_879)):
         sets = formulas.find_known_sets(system, size)
-        what, counted = f"sets of {size} from which all others follow", sets.count == expected
-        outcome = judge_outcome(counted, Outcome.DERIVED)
-        rows.append(
-            MethodRow(
-                what, "-", f"{sets.count} of {sets.candidate_count}", outcome, "our consequence"
-            )
-        )
+        what = f"sets of {size} from which all others follow"
+        outcome = judge_outcome(sets.count == expected, Outcome.DERIVED)
+        counted = f"{sets.count} of {sets.candidate_count}"
+        rows.append(MethodRow(what, "-", counted, outcome, "our consequence"))
     return MethodTable("Physical parameters that must be known", (), tuple(rows))

@@ -12,15 +12,8 @@ import numpy as np
 from modeler.codegen import derive, generate
 from modeler.core.choices import read_builtin_robot
 from modeler.estimation import FitResult, compute_friction_by_direction, identify, identify_energy
-from modeler.papers.methods import (
-    MethodRow,
-    MethodTable,
-    Outcome,
-    build_log,
-    judge_outcome,
-    judge_recovery,
-    read_quotation,
-)
+from modeler.papers import methods
+from modeler.papers.methods import MethodRow, MethodTable, Outcome, read_quotation
 from modeler.papers.paper import Paper
 from modeler.regression import Log, observe
 from modeler.robot import Robot, parse_robot_text
@@ -50,9 +43,8 @@ def reproduce_houda(paper: Paper, report: Callable[[float], None]) -> list[Metho
     for joint, values in friction.items():
         truth |= dict(zip((n.format(joint) for n in FRICTION), values, strict=True))
     machine = _build_machine(truth, friction)
-    compiled = load_cached_model(
-        generate(derive(parse_robot_text(_write_robot_text(both_ways=True), "evra")))
-    )
+    robot = parse_robot_text(_write_robot_text(both_ways=True), "evra")
+    compiled = load_cached_model(generate(derive(robot)))
     runs = []
     for seed in range(RUNS):
         settings = SimulationSettings(
@@ -109,17 +101,18 @@ def _simulate_log(
         speed = run.truth.qd[:, run.joints.index(joint)]
         tau[:, joints.index(joint)] += (there - back) / 2 * np.abs(speed)
     tau += NOISE * np.sqrt(np.mean(tau**2, axis=0)) * rng.normal(size=tau.shape)
-    return build_log(run, joints, tau)
+    return methods.build_log(run, joints, tau)
 
 
 def _build_value_table(
     title: str, truth: Mapping[str, float], compiled: CompiledModel, fit: FitResult
 ) -> MethodTable:
     estimates = {p.name: (p.value, p.sigma or 0.0) for p in fit.parameters}
-    estimates |= {
-        d.name: (d.value, d.sigma) for d in compute_friction_by_direction(compiled.spec, fit)
-    }
-    rows = [judge_recovery(n, f"{value:g}", value, *estimates[n]) for n, value in truth.items()]
+    friction = compute_friction_by_direction(compiled.spec, fit)
+    estimates |= {d.name: (d.value, d.sigma) for d in friction}
+    rows = [
+        methods.judge_recovery(n, f"{value:g}", value, *estimates[n]) for n, value in truth.items()
+    ]
     return MethodTable(title, SETTING, tuple(rows))
 
 
@@ -136,7 +129,6 @@ def _build_comparison_table(energy: FitResult) -> MethodTable:
     ratio = simpson.torque_sigma / torque.torque_sigma
     what = "uncertainty of predicted torques, energy over torque"
     why = "our consequence: at equal data the torque model is the surer"
-    rows.append(
-        MethodRow(what, "-", f"{ratio:.3g}", judge_outcome(ratio > 1.0, Outcome.DERIVED), why)
-    )
+    outcome = methods.judge_outcome(ratio > 1.0, Outcome.DERIVED)
+    rows.append(MethodRow(what, "-", f"{ratio:.3g}", outcome, why))
     return MethodTable("The energy model beside the torque model", (), tuple(rows))

@@ -92,9 +92,8 @@ def judge_recovery(name: str, printed: str, truth: float, value: float, sigma: f
     if abs(z) >= ZMAX:
         return MethodRow(name, printed, text, Outcome.FAILED, why)
     if share > LARGEST:
-        return MethodRow(
-            name, printed, text, Outcome.UNDETERMINED, f"sigma {format_percent(share)}; {why}"
-        )
+        why = f"sigma {format_percent(share)}; {why}"
+        return MethodRow(name, printed, text, Outcome.UNDETERMINED, why)
     return MethodRow(name, printed, text, Outcome.RECOVERED, why)
 
 

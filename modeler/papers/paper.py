@@ -250,11 +250,9 @@ class DerivedRobot:
         """Returns energy functions, without loops Kane's form too, and their errors."""
         states = derivation.draw_random_states(self.model, 20, np.random.default_rng(2000))
         equations = {"energy": formulas.energy_functions(self.model, states)}
-        return (
-            equations
-            if self.robot.loops
-            else equations | {"kane": formulas.kane_form(self.model, states)}
-        )
+        if self.robot.loops:
+            return equations
+        return equations | {"kane": formulas.kane_form(self.model, states)}
 
     @cached_property
     def dependent_variables(self) -> Mapping[str, Sum]:
@@ -383,9 +381,8 @@ def collect_quantities(derived: DerivedRobot) -> dict[str, Any]:
         "links": frozenset(robot.joints[c.row].name for c in base.columns if c.kind == "inertial"),
     }
     known = {**_ARITHMETIC, **{name: _build_matcher(members) for name, members in sets.items()}}
-    known["prefix"] = lambda names: frozenset(
-        column.prefix for column in base.columns if column.name in names
-    )
+    columns = base.columns
+    known["prefix"] = lambda names: frozenset(c.prefix for c in columns if c.name in names)
     known["efforts"] = lambda names: frozenset(f"Gamma{name}" for name in names)
     known["within"] = lambda candidates, others: _find_within(derived, candidates, others)
     known["terms"] = lambda name: len(derived.relations.get(name, ()))
@@ -495,9 +492,8 @@ def compare_line(comparison: LineComparison, line: PrintedLine) -> tuple[bool, b
     digit; all others exactly.
     """
     # Derived minus printed, as the paper's file states it in our names.
-    difference = (
-        "" if comparison.is_difference_included else line.difference.replace("{i}", line.legs[0])
-    )
+    stated = line.difference.replace("{i}", line.legs[0])
+    difference = "" if comparison.is_difference_included else stated
     known = read_sum(difference, str) if difference else {}
     printed = _group_by_name(add_sums(comparison.printed, known), comparison.values)
     derived = _group_by_name(comparison.derived, comparison.values)

@@ -4,6 +4,7 @@
 side by side as in print. A number with a point stands for every value that rounds to it.
 """
 
+import itertools
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -171,13 +172,8 @@ class _QuotationReader:
 
 
 def _multiply_sums(a: Sum, b: Sum) -> dict[Monomial, Amount]:
-    return add_sums(
-        *(
-            {multiply_monomials(left, right): x * y}
-            for left, x in a.items()
-            for right, y in b.items()
-        )
-    )
+    pairs = itertools.product(a.items(), b.items())
+    return add_sums(*({multiply_monomials(m, n): x * y} for (m, x), (n, y) in pairs))
 
 
 def _invert_monomial(a: Sum) -> dict[Monomial, Amount]:

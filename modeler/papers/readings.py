@@ -185,9 +185,8 @@ def _compare_element(paper: Paper, line: PrintedLine, robots: Robots) -> LineCom
     place = re.fullmatch(r"h(\d)\^([1-6])", left.strip())
     if place is None or int(place.group(1)) != len(line.expected):
         raise QuotationError(f"got {left.strip()}; expected 1 to 6 of link {len(line.expected)}")
-    derived = expand_to_sum(
-        _compute_elements(robots[line.robot], line.expected)[int(place.group(2)) - 1]
-    )
+    elements = _compute_elements(robots[line.robot], line.expected)
+    derived = expand_to_sum(elements[int(place.group(2)) - 1])
     printed = read_sum(right, build_renamer(paper, line))
     return LineComparison(printed, derived, format_sum(derived))
 
@@ -289,14 +288,12 @@ def _evaluate_text(text: str, names: Mapping[str, Any]) -> Any:
 
 def _compare_body(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
     """`1/2 [omegak^T Jk omegak + ...]`: `gives` "E" or "U" of a body, from those of its masses."""
-    derived_form = {"E": _ENERGY, "U": _HEIGHT.subs(dict(zip(_MS, _M * _S, strict=True)))}[
-        line.expected[0]
-    ]
+    height = _HEIGHT.subs(dict(zip(_MS, _M * _S, strict=True)))
+    derived_form = {"E": _ENERGY, "U": height}[line.expected[0]]
     names = {"omegak^T": _W.T, "omegak": _W, "Jk": _INERTIA, "Mk": _M, "Vk^T": _V.T, "Vk": _V}
     names |= {"MSk^T": sympy.Matrix(_MS).T, "^0g^T": _G.T, "^0Pk": _P, "^0Ak": _AXES, "^kSk": _S}
-    printed, derived = (
-        expand_to_sum(sympy.expand(x)) for x in (_evaluate_text(line.text, names)[0], derived_form)
-    )
+    both = (_evaluate_text(line.text, names)[0], derived_form)
+    printed, derived = (expand_to_sum(sympy.expand(x)) for x in both)
     return LineComparison(printed, derived, format_sum(derived))
 
 
@@ -372,9 +369,8 @@ def _compare_digits(paper: Paper, line: PrintedLine, robots: Robots) -> LineComp
     """`12`: digits that agree, 12 or more, of a form, "energy" or "kane", and the derivation."""
     off = robots[line.robot].forms[line.expected[0]][1]
     digits = join_numbers([min(12, int(-np.log10(off + 1e-16)))])
-    return LineComparison(
-        join_numbers(read_numbers(line.text)), digits, f"{off:.0e} of the largest"
-    )
+    printed = join_numbers(read_numbers(line.text))
+    return LineComparison(printed, digits, f"{off:.0e} of the largest")
 
 
 _COLUMNS = ("j", "a", "mu", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
@@ -437,9 +433,8 @@ def _compare_closure(paper: Paper, line: PrintedLine, robots: Robots) -> LineCom
     for leg, text in zip(line.legs, texts, strict=True):
         rename = build_renamer(paper, line, leg)
         text = _replace_deltas(text, int(leg))
-        turn, place = _compute_place(
-            robots[line.robot], line.expected[0].replace("{i}", leg), f"1{leg}"
-        )
+        frame = line.expected[0].replace("{i}", leg)
+        turn, place = _compute_place(robots[line.robot], frame, f"1{leg}")
         if ";" in text:
             printed |= {f"{leg}x{k}": read_sum(x, rename) for k, x in enumerate(text.split(";"))}
             along = enumerate(turn.T * place)
@@ -605,9 +600,8 @@ def check_line(paper: Paper, line: PrintedLine, derived: Robots) -> CheckedLine:
                 raise QuotationError(f"the corrected form does not hold: {line.correction}")
     except (QuotationError, ExpressionError, RobotError) as error:
         return _build_checked_line(line, str(error), LineVerdict.DIFFERENT)
-    return _build_checked_line(
-        line, comparison.text, _classify_line(line, equal, exact, comparison.is_inequality)
-    )
+    verdict = _classify_line(line, equal, exact, comparison.is_inequality)
+    return _build_checked_line(line, comparison.text, verdict)
 
 
 def _classify_line(line: PrintedLine, equal: bool, exact: bool, weak: bool) -> LineVerdict:

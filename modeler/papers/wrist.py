@@ -18,6 +18,7 @@ from modeler.formulas import (
     find_wrong_functions,
     format_monomial,
 )
+from modeler.papers import quotation
 from modeler.papers.paper import (
     DerivedRobot,
     LineComparison,
@@ -29,16 +30,7 @@ from modeler.papers.paper import (
     join_numbers,
     join_sums,
 )
-from modeler.papers.quotation import (
-    Amount,
-    QuotationError,
-    Sum,
-    add_sums,
-    format_sum,
-    read_amount,
-    read_sum,
-    replace_names,
-)
+from modeler.papers.quotation import Amount, QuotationError, Sum, format_sum, read_sum
 
 _PLACES = {"definition": "section 2.2", "function": "section 2.2", "solution": "section 4"}
 
@@ -78,9 +70,8 @@ def _parse_formula(text: str) -> Expression:
 
 def _compare_difference(line: PrintedLine, difference: str, right: str) -> LineComparison:
     """Equal if what is found to differ is what the paper's file says."""
-    different: Sum = (
-        {} if difference == line.difference else {(("difference", 1),): Amount(Fraction(1))}
-    )
+    one: Sum = {(("difference", 1),): Amount(Fraction(1))}
+    different: Sum = {} if difference == line.difference else one
     text = f"derived - printed: {difference}" if difference else right
     return LineComparison(different, {}, text, is_difference_included=True)
 
@@ -92,9 +83,8 @@ def _compare_function(paper: Paper, line: PrintedLine, robots: Robots) -> LineCo
     parts = [f"({v})*{k}" for c in find_wrong_functions(table) for k, v in c.difference.items()]
     # Coefficients that number terms of other functions, equal in value or not.
     functions_by_name = {n: c.function for n, c in table.by_name.items() if n in printed.names}
-    parts += [
-        f"{n} is of {function}" for n, function in functions_by_name.items() if function != name
-    ]
+    others = (item for item in functions_by_name.items() if item[1] != name)
+    parts += [f"{n} is of {function}" for n, function in others]
     return _compare_difference(line, "; ".join(parts), "the same")
 
 
@@ -126,9 +116,8 @@ def _compare_independent(paper: Paper, line: PrintedLine, robots: Robots) -> Lin
         raise QuotationError("the list names others than the printed definitions")
     dependent = check_independent(_restrict_print(table, independent=names))
     difference = "; ".join(f"{name} = {text}" for name, text in dependent.items())
-    return replace(
-        _compare_difference(line, difference, "independent"), text=difference or "independent"
-    )
+    compared = _compare_difference(line, difference, "independent")
+    return replace(compared, text=difference or "independent")
 
 
 def _compare_monomials(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:
@@ -145,7 +134,7 @@ def _compare_values(paper: Paper, line: PrintedLine, robots: Robots) -> LineComp
     values = {}
     for entry in ", ".join(line.assumptions).split(","):
         key, _, number = entry.partition("=")
-        values[key.strip()] = read_amount(number.strip())
+        values[key.strip()] = quotation.read_amount(number.strip())
     terms = _collect_terms(robots[line.robot], name)
     if {key for key, _ in terms} != set(values):
         raise QuotationError(f"the list names others than the coefficients of {name}")
@@ -174,7 +163,7 @@ def _read_components(text: str) -> dict[str, Sum]:
         factors = term[: axis.start()]
         size = read_sum(f"{factors}{' ' if factors[-1:].isalnum() else ' 1'}", str)
         name = "".join(filter(None, axis.groups()))
-        components[name] = add_sums(components.get(name, {}), size)
+        components[name] = quotation.add_sums(components.get(name, {}), size)
     return components
 
 
@@ -186,7 +175,9 @@ def _compare_kane(paper: Paper, line: PrintedLine, robots: Robots) -> LineCompar
         for v in (line.text.split(";"), formulas)
     )
     unit: Sum = {(): Amount(Fraction(1))}
-    return LineComparison(printed, replace_names(derived, {"g": unit}), "; ".join(formulas))
+    return LineComparison(
+        printed, quotation.replace_names(derived, {"g": unit}), "; ".join(formulas)
+    )
 
 
 def _compare_indices(paper: Paper, line: PrintedLine, robots: Robots) -> LineComparison:

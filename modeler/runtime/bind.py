@@ -131,10 +131,9 @@ class Library(_ArrayLibrary):
         """
         names = [f"{self.spec.prefix}_{name}" for name in ("loops", "posed", "tree_next")]
         names.append(f"{self._runtime}_eliminated")
-        return [
-            int(self._ffi.cast("uintptr_t", self._ffi.addressof(self._library, name)))
-            for name in names
-        ]
+        cast, library = self._ffi.cast, self._library
+        addresses = (self._ffi.addressof(library, name) for name in names)
+        return [int(cast("uintptr_t", address)) for address in addresses]
 
     def run_batch(
         self,
@@ -153,11 +152,9 @@ class Library(_ArrayLibrary):
         """
         assert (status is not None) == function.status
         assert len(inputs) == len(function.inputs)
-        runtime, arrays, result = (
-            self._runtime,
-            self._prepare_inputs(inputs),
-            self._prepare_output(out),
-        )
+        runtime = self._runtime
+        arrays = self._prepare_inputs(inputs)
+        result = self._prepare_output(out)
         kind = "" if status is None else "status_"
         if not hasattr(self._library, f"{runtime}_batch_{kind}{len(inputs)}"):
             self._run_samples(function, arrays, result, status)
@@ -213,9 +210,8 @@ class Library(_ArrayLibrary):
     ) -> None:
         """Fills beta from chi by the grouping relations."""
         (parameters,), result = self._prepare_inputs([chi]), self._prepare_output(beta)
-        getattr(self._library, function.name)(
-            self._cast_numbers(parameters), self._cast_numbers(result)
-        )
+        numbers = (self._cast_numbers(parameters), self._cast_numbers(result))
+        getattr(self._library, function.name)(*numbers)
         self._copy_back(result, beta)
 
 
@@ -515,20 +511,15 @@ class TileLibrary(_ArrayLibrary):
         arrays, result = self._prepare_inputs(inputs), self._prepare_output(out)
         pointers = [self._cast_numbers(array) for array in arrays]
         work = np.empty(self._get_function("work")(self._tiled), dtype=np.uint8)
-        leading_arguments, start = (
-            [self._tiled, len(inputs[0])],
-            self._ffi.cast("void *", work.ctypes.data),
-        )
+        first, start = ([self._tiled, len(inputs[0])], self._ffi.cast("void *", work.ctypes.data))
         rows = [] if result.flags.c_contiguous else [result.strides[1] // result.itemsize]
         if status is not None:
             more = [self._cast_numbers(result), *(rows or [0]), self._cast_integers(status), start]
-            self._get_function("closed")(*leading_arguments, *pointers, *more)
+            self._get_function("closed")(*first, *pointers, *more)
         else:
             pointers += [self._ffi.NULL] * (4 - len(inputs))
             name = "columns" if rows else "observation" if dense else "nonzeros"
-            self._get_function(name)(
-                *leading_arguments, *pointers, self._cast_numbers(result), *rows, start
-            )
+            self._get_function(name)(*first, *pointers, self._cast_numbers(result), *rows, start)
         self._copy_back(result, out)
 
     def _get_function(self, name: str) -> Any:

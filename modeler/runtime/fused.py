@@ -63,18 +63,15 @@ class NonzeroPattern(ShortRepr):
     def split_triangles(self, packed: np.ndarray) -> list[np.ndarray]:
         """Returns the square triangle of each joint, views."""
         ends = np.cumsum([size * size for size in self.sizes])
-        return [
-            part.reshape(size, size)
-            for part, size in zip(np.split(packed, ends[:-1]), self.sizes, strict=True)
-        ]
+        pairs = zip(np.split(packed, ends[:-1]), self.sizes, strict=True)
+        return [part.reshape(size, size) for part, size in pairs]
 
 
 def build_pattern(entries: Sequence[tuple[int, int]], joints: int, width: int) -> NonzeroPattern:
     """Returns the pattern of (joint, column) entries."""
     columns = [sorted(c for joint, c in entries if joint == j) for j in range(joints)]
-    return NonzeroPattern(
-        tuple(np.array(joint_columns, dtype=np.intc) for joint_columns in columns), width
-    )
+    numbers = (np.array(entries, dtype=np.intc) for entries in columns)
+    return NonzeroPattern(tuple(numbers), width)
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,14 +134,12 @@ def reduce_samples(
 
     def reduce_block(block: slice) -> Triangles:
         triangles, part = make_empty_triangles(pattern), samples.select_block(block)
-        bad = library.add_samples(
-            pattern.rows_of_entries, functions, part, level, triangles.packed, triangles.rows
-        )
+        rows = pattern.rows_of_entries
+        bad = library.add_samples(rows, functions, part, level, triangles.packed, triangles.rows)
         return Triangles(pattern, triangles.packed, triangles.rows, bad)
 
-    return _merge_blocks(
-        library, pattern, map_parts(reduce_block, _split_blocks(len(samples.q), BLOCK)), state
-    )
+    parts = map_parts(reduce_block, _split_blocks(len(samples.q), BLOCK))
+    return _merge_blocks(library, pattern, parts, state)
 
 
 def reduce_dense_samples(
@@ -175,9 +170,8 @@ def reduce_dense_samples(
         triangles = reduce_rows(pattern, phi, tau, use & ~left[:, None])
         return Triangles(pattern, triangles.packed, triangles.rows, left)
 
-    return _merge_blocks(
-        library, pattern, map_parts(reduce_block, _split_blocks(len(samples.q), _DENSE)), state
-    )
+    parts = map_parts(reduce_block, _split_blocks(len(samples.q), _DENSE))
+    return _merge_blocks(library, pattern, parts, state)
 
 
 def reduce_rows(
@@ -198,15 +192,12 @@ def reduce_rows(
         state: of earlier rows, which these are added to.
         level: of instructions; 0: the best of this processor.
     """
-    library, before = (
-        bind.load_fused_library(),
-        make_empty_triangles(pattern) if state is None else state,
-    )
+    library = bind.load_fused_library()
+    before = make_empty_triangles(pattern) if state is None else state
     packed, rows, phi = before.packed.copy(), before.rows.copy(), np.ascontiguousarray(phi)
     mask = None if use is None else use.view(np.uint8)
-    for j, (columns, triangle) in enumerate(
-        zip(pattern.columns, pattern.split_triangles(packed), strict=True)
-    ):
+    triangles = zip(pattern.columns, pattern.split_triangles(packed), strict=True)
+    for j, (columns, triangle) in enumerate(triangles):
         flags = None if mask is None else mask[:, j]
         added, _ = library.add_rows(phi[:, j], y[:, j], flags, columns, level, triangle)
         rows[j] += np.uintp(added)
@@ -327,9 +318,8 @@ class BatchEvaluator:
             rows = out[each * piece.start : each * piece.stop]
             tiles.fill_samples([array[piece] for array in inputs], rows, dense, status)
 
-        for _ in map_parts(
-            fill_part, [slice(0, samples)] if loops else split_samples(samples, _SLICE)
-        ):
+        parts = [slice(0, samples)] if loops else split_samples(samples, _SLICE)
+        for _ in map_parts(fill_part, parts):
             pass
         return True
 
@@ -420,9 +410,8 @@ class BatchEvaluator:
                 )
         samples = self._check_measurements((q, qd, qdd, tau), use, s, weight)
         if self.spec.closure is None and self.spec.precision == "double":
-            return reduce_samples(
-                pattern, self._get_entry_functions(len(samples.q)), samples, state
-            )
+            functions = self._get_entry_functions(len(samples.q))
+            return reduce_samples(pattern, functions, samples, state)
         function = self._functions["base_regressor"]
 
         def evaluate_block(block: slice) -> tuple[np.ndarray, np.ndarray]:
@@ -466,9 +455,8 @@ class BatchEvaluator:
         tiles = self._tiles if samples >= TILED_FROM else None  # compiled where there are many
         self._functions[name.removeprefix(f"{self.spec.prefix}_")]
         address = self._library.find_address(name)
-        return EntryFunctions(
-            address, len(self.spec.signals), 0 if tiles is None else tiles.tile_address
-        )
+        tile = 0 if tiles is None else tiles.tile_address
+        return EntryFunctions(address, len(self.spec.signals), tile)
 
     @cached_property
     def pattern(self) -> NonzeroPattern:

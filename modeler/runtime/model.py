@@ -170,11 +170,9 @@ class CompiledModel(BatchEvaluator, Result):
         Raises:
             LoopError: the loops cannot be closed; names the sample.
         """
-        return (
-            self._evaluate_function("close", {"q": q})
-            if self._has_loops
-            else self._check_states({"q": q})["q"]
-        )
+        if self._has_loops:
+            return self._evaluate_function("close", {"q": q})
+        return self._check_states({"q": q})["q"]
 
     def closing_status(self, q: Any) -> np.ndarray:
         """Returns (n,) 0 where the loops close, else the status of the C code.
@@ -205,9 +203,8 @@ class CompiledModel(BatchEvaluator, Result):
 
     def platform_inverse_dynamics(self, x: Any, xd: Any, xdd: Any, beta: Any) -> np.ndarray:
         """Returns f, (n, joints), along the platform's coordinates."""
-        return self._evaluate_function(
-            "platform_inverse_dynamics", {"x": x, "xd": xd, "xdd": xdd}, beta
-        )
+        states = {"x": x, "xd": xd, "xdd": xdd}
+        return self._evaluate_function("platform_inverse_dynamics", states, beta)
 
     def forward_kinematics(self, q: Any) -> np.ndarray:
         """Returns [R | p] of the frame of every moving row in frame 0, (n, rows, 3, 4); p in m.
@@ -365,9 +362,8 @@ def load_module(
     check_names(spec)
     missing = [name for name in spec.sources if name not in files]
     if missing:
-        raise ManifestError(
-            f"{spec.robot}: the module lacks {', '.join(missing)}; generate it again"
-        )
+        lacking = ", ".join(missing)
+        raise ManifestError(f"{spec.robot}: the module lacks {lacking}; generate it again")
     path = build_library({name: files[name] for name in spec.sources})
     return CompiledModel(spec, Library(spec, path), log, files)
 

@@ -163,10 +163,9 @@ def compute_rates(
         Q, R = np.linalg.qr(J[:, :, others])
         driven = J[:, :, coordinate_rows]
         vd[part, others] = -_solve_least_squares(Q, R, np.einsum("nij,nj->ni", driven, qd[part]))
-        curvature_term = evaluate_samples(constraints.curvature, v[part], vd[part])[:, :, 0]
-        vdd[part, others] = -_solve_least_squares(
-            Q, R, np.einsum("nij,nj->ni", driven, qdd[part]) + curvature_term
-        )
+        curvature = evaluate_samples(constraints.curvature, v[part], vd[part])[:, :, 0]
+        pull = np.einsum("nij,nj->ni", driven, qdd[part]) + curvature
+        vdd[part, others] = -_solve_least_squares(Q, R, pull)
     return vd, vdd
 
 
@@ -268,13 +267,10 @@ def _is_same_mode(constraints: Constraints, before: np.ndarray, after: np.ndarra
     """
     if np.max(np.abs(after - before)) > THRESHOLDS.max_joint_jump:
         return False
-    old, new = (
-        constraints.jacobian(v).full()[:, constraints.passive_rows] for v in (before, after)
-    )
-    return bool(
-        np.linalg.det(np.linalg.lstsq(old, new, rcond=THRESHOLDS.min_relative_singular_value)[0])
-        > 0
-    )
+    rows = constraints.passive_rows
+    old, new = (constraints.jacobian(v).full()[:, rows] for v in (before, after))
+    least = THRESHOLDS.min_relative_singular_value
+    return bool(np.linalg.det(np.linalg.lstsq(old, new, rcond=least)[0]) > 0)
 
 
 def _interpolate_postures(
@@ -282,16 +278,14 @@ def _interpolate_postures(
 ) -> np.ndarray:
     """Closed postures at q: some one after the other, those between them all at once."""
     travel = np.cumsum(np.max(np.abs(np.diff(q, axis=0, prepend=q[:1])), axis=1))
-    anchors = np.unique(
-        [0, *np.flatnonzero(np.diff(travel // THRESHOLDS.anchor_spacing)), len(q) - 1]
-    )
-    anchor_postures = []
+    steps = np.flatnonzero(np.diff(travel // THRESHOLDS.anchor_spacing))
+    anchors = np.unique([0, *steps, len(q) - 1])
+    postures = []
     for k in anchors:
         before = _close_stepwise(robot, constraints, before, q[k], f"at sample {first + k + 1}")
-        anchor_postures.append(before)
-    start = np.column_stack(
-        [np.interp(np.arange(len(q)), anchors, column) for column in np.array(anchor_postures).T]
-    )
+        postures.append(before)
+    at, columns = np.arange(len(q)), np.array(postures).T
+    start = np.column_stack([np.interp(at, anchors, column) for column in columns])
     start[:, constraints.coordinate_rows] = q
     v, closed = _refine_postures(constraints, start)
     wrong = ~closed | (np.max(np.abs(v - start), axis=1) > THRESHOLDS.max_joint_jump)
@@ -309,19 +303,16 @@ def _refine_postures(constraints: Constraints, v: np.ndarray) -> tuple[np.ndarra
         open_ = np.flatnonzero(np.max(np.abs(c), axis=1) >= THRESHOLDS.max_closure_error)
         if not open_.size:
             break
-        Q, R = np.linalg.qr(
-            evaluate_samples(constraints.jacobian, v[open_])[:, :, constraints.passive_rows]
-        )
+        J = evaluate_samples(constraints.jacobian, v[open_])
+        Q, R = np.linalg.qr(J[:, :, constraints.passive_rows])
         diagonal = np.abs(np.diagonal(R, axis1=1, axis2=2))
-        if not np.all(
-            diagonal.min(axis=1) > THRESHOLDS.min_independent_share * diagonal.max(axis=1)
-        ):
+        least = THRESHOLDS.min_independent_share * diagonal.max(axis=1)
+        if not np.all(diagonal.min(axis=1) > least):
             break  # joints that are not given are not determined
         step = _solve_least_squares(Q, R, c[open_])
         longest = np.max(np.abs(step), axis=1, keepdims=True)
-        v[open_[:, None], constraints.passive_rows] -= step * np.minimum(
-            1.0, THRESHOLDS.max_newton_step / longest
-        )
+        step *= np.minimum(1.0, THRESHOLDS.max_newton_step / longest)
+        v[open_[:, None], constraints.passive_rows] -= step
     return v, np.max(
         np.abs(evaluate_samples(constraints.residual, v)[:, :, 0]), axis=1
     ) < THRESHOLDS.max_closure_error
@@ -336,9 +327,8 @@ def _solve_posture(constraints: Constraints, v: np.ndarray) -> np.ndarray | None
             return v
         J = constraints.jacobian(v).full()[:, constraints.passive_rows]
         step = np.linalg.lstsq(J, -c, rcond=THRESHOLDS.min_relative_singular_value)[0]
-        v[constraints.passive_rows] += step * min(
-            1.0, THRESHOLDS.max_newton_step / np.max(np.abs(step))
-        )
+        longest = np.max(np.abs(step))
+        v[constraints.passive_rows] += step * min(1.0, THRESHOLDS.max_newton_step / longest)
     return None
 
 
@@ -444,12 +434,10 @@ def find_closed_motion(
     def is_clear_of_singularities(reference: Reference) -> bool:
         """Returns True if loops close from home on, no nearer than `least` to a singularity."""
         first = reference.q[0] - home
-        fractions = np.linspace(
-            0.0, 1.0, 1 + int(np.ceil(np.max(np.abs(first)) / THRESHOLDS.home_path_spacing))
-        )
-        stride = max(
-            1, round(1 / (THRESHOLDS.checked_rate * (reference.time[1] - reference.time[0])))
-        )
+        parts = int(np.ceil(np.max(np.abs(first)) / THRESHOLDS.home_path_spacing))
+        fractions = np.linspace(0.0, 1.0, 1 + parts)
+        step = reference.time[1] - reference.time[0]
+        stride = max(1, round(1 / (THRESHOLDS.checked_rate * step)))
         q = np.vstack([home + fractions[:, None] * first, reference.q[::stride]])
         try:
             return bool(

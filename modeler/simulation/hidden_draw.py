@@ -7,13 +7,7 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.robot import Limits, Robot
-from modeler.simulation.closing import (
-    build_constraints,
-    compute_motor_torques,
-    compute_rates,
-    evaluate_samples,
-    find_closed_motion,
-)
+from modeler.simulation import closing
 from modeler.simulation.log import HiddenEffect, SimulationSettings
 from modeler.simulation.parameters import PlantParameters, estimate_joint_scales
 from modeler.simulation.physics import HIDDEN, HiddenKind, ShaftScale, Site
@@ -50,26 +44,26 @@ def compute_motor_amplitudes(
         RobotError: `home` does not close.
         DataError: the loops close on no such motion.
     """
-    constraints = build_constraints(robot)
+    constraints = closing.build_constraints(robot)
     names = [moving.name for moving in robot.moving_joints]
     coordinate_limits = tuple(limits[names.index(moving.name)] for moving in robot.coordinates)
-    motion = find_closed_motion(
+    motion = closing.find_closed_motion(
         robot,
         constraints,
         coordinate_limits,
         lambda near: build_exciting_reference(near, _DURATION, _RATE, seed),
     )
     v, qd = motion.v, motion.reference.qd
-    vd, vdd = compute_rates(constraints, v, qd, motion.reference.qdd)
+    vd, vdd = closing.compute_rates(constraints, v, qd, motion.reference.qdd)
     torque, states = build_torque_function(robot, parameters, tuple(limits))
-    load = evaluate_samples(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
-    needed = np.sqrt(np.mean(compute_motor_torques(constraints, v, load) ** 2, axis=0))
+    load = closing.evaluate_samples(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
+    needed = np.sqrt(np.mean(closing.compute_motor_torques(constraints, v, load) ** 2, axis=0))
     row = names.index(joint)
     shares = []
     for m, torque_m in enumerate(needed):
         motor_speeds = np.zeros_like(qd)
         motor_speeds[:, m] = 1.0
-        slope = compute_rates(constraints, v, motor_speeds, np.zeros_like(qd))[0][:, row]
+        slope = closing.compute_rates(constraints, v, motor_speeds, np.zeros_like(qd))[0][:, row]
         if torque_m > 0.0:
             shares.append(float(np.sqrt(np.mean(slope**2))) / torque_m)
     speed = float(np.quantile(np.abs(vd[:, row]), THRESHOLDS.top_speed_quantile))
@@ -117,9 +111,8 @@ def complete_effects(
         rng = np.random.default_rng(seed)
         kind, joint = _choose_kind_and_joint(robot, parameters, request, rng)
         site = _build_site(robot, parameters, limits, scales, settings, kind, joint)
-        effects.append(
-            HiddenEffect(request.effect, joint, _complete_values(robot, kind, request, site, rng))
-        )
+        values = _complete_values(robot, kind, request, site, rng)
+        effects.append(HiddenEffect(request.effect, joint, values))
     _check_together(robot, effects)
     return tuple(effects)
 
@@ -192,15 +185,14 @@ def _build_site(
     names = [moving.name for moving in robot.moving_joints]
     row = names.index(find_last_link(robot) if joint is None else joint)
     scale, limit, name = scales[row], limits[row], names[row]
-    joint_parameters = {
-        p: parameters.standard[p + name] for p in _OWN if p + name in parameters.standard
-    }
+    standard = parameters.standard
+    values = {p: standard[p + name] for p in _OWN if p + name in standard}
     # With what the robot file knows of friction and rotor, in the same motion.
     parts = (
         scale.torque,
-        joint_parameters.get("Ia", 0.0) * THRESHOLDS.lively_rms_share * limit.acceleration,
-        joint_parameters.get("Fv", 0.0) * THRESHOLDS.lively_rms_share * limit.speed,
-        joint_parameters.get("Fs", 0.0),
+        values.get("Ia", 0.0) * THRESHOLDS.lively_rms_share * limit.acceleration,
+        values.get("Fv", 0.0) * THRESHOLDS.lively_rms_share * limit.speed,
+        values.get("Fs", 0.0),
     )
     torque, speed, inertia = float(np.linalg.norm(parts)), scale.speed, scale.inertia
     if kind.where == "pair":  # it acts on the next joint too: what is large for the weaker one
@@ -208,9 +200,8 @@ def _build_site(
         after = scales[motors[motors.index(row) + 1]]
         torque, inertia = min(torque, after.torque), min(inertia, after.inertia)
     elif joint is not None and robot.loops and kind.where in ("joint", "lever", "passive"):
-        torque, joint_speed = compute_motor_amplitudes(
-            robot, parameters, limits, joint, settings.parameter_seed
-        )
+        seed = settings.parameter_seed
+        torque, joint_speed = compute_motor_amplitudes(robot, parameters, limits, joint, seed)
         # What no motor commands is as fast as the loops make it.
         speed = joint_speed if kind.where == "passive" else speed
     # Torque of a force of 1 N on the last body, per rms torque of the joint on which it acts most.
@@ -225,7 +216,7 @@ def _build_site(
         inertia=inertia,
         span=limit.upper - limit.lower,
         angular=robot.moving_joints[row].is_revolute,
-        joint_parameters=joint_parameters,
+        joint_parameters=values,
         body=parameters.bodies[name],
         mass=sum(body.mass for body in parameters.bodies.values()),
         lever=float(np.max(arms / [each.torque for each in scales])),

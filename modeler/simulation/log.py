@@ -324,9 +324,8 @@ def write_truth(path: Path, log: SimulatedLog) -> None:
         "hidden_effects": serialise_hidden_effects(log),
         "drive_gains": dict(log.settings.drive_gains),
     }
-    write_atomically(
-        Path(path), json.dumps(convert_to_plain(content), indent=1, allow_nan=False) + "\n"
-    )
+    text = json.dumps(convert_to_plain(content), indent=1, allow_nan=False)
+    write_atomically(Path(path), f"{text}\n")
 
 
 def serialise_hidden_effects(log: SimulatedLog) -> list[dict[str, object]]:

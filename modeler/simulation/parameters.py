@@ -69,9 +69,8 @@ def complete_body(stated: Mapping[str, float], reference: Mapping[str, float]) -
         return Completion(dict(reference))
     if len(stated) == len(INERTIAL):
         return Completion(dict(stated)) if is_physical(stated) else Completion(None, True)
-    near = compute_pseudo_inertia(reference) * (
-        stated["M"] / reference["M"] if stated.get("M", 0.0) > 0 else 1.0
-    )
+    scale = stated["M"] / reference["M"] if stated.get("M", 0.0) > 0 else 1.0
+    near = compute_pseudo_inertia(reference) * scale
     problem = _build_problem(stated, near)
     if problem is None:
         return Completion(None, is_impossible=True)
@@ -80,22 +79,18 @@ def complete_body(stated: Mapping[str, float], reference: Mapping[str, float]) -
     x = _find_feasible(problem)
     if x is None:
         return Completion(None)
-    if (
-        x.size
-        and _compute_smallest_eigenvalue(_build_matrix(problem, x))
-        > THRESHOLDS.min_strict_eigenvalue
-    ):
+    least = _compute_smallest_eigenvalue(_build_matrix(problem, x))
+    if x.size and least > THRESHOLDS.min_strict_eigenvalue:
         x = _find_nearest(problem, near, x)
     elif x.size:
         x = _flatten_solution(problem, x)
     if _compute_smallest_eigenvalue(_build_matrix(problem, x)) < -THRESHOLDS.max_edge_violation:
         return Completion(None, is_impossible=True)
     scale = problem.scale[problem.rows]
-    completed_matrix = np.zeros((4, 4))
-    completed_matrix[np.ix_(problem.rows, problem.rows)] = _build_matrix(problem, x) * np.outer(
-        scale, scale
-    )
-    values = {**convert_pseudo_inertia(completed_matrix), **stated}
+    completed = np.zeros((4, 4))
+    matrix = _build_matrix(problem, x) * np.outer(scale, scale)
+    completed[np.ix_(problem.rows, problem.rows)] = matrix
+    values = {**convert_pseudo_inertia(completed), **stated}
     return Completion(values if is_physical(values, THRESHOLDS.max_edge_violation) else None)
 
 
@@ -147,10 +142,8 @@ def _compute_known_diagonal(stated: Mapping[str, float]) -> dict[int, float]:
             for one, other in ((i, j), (j, i)):
                 if one in known and other not in known:
                     known[other] = value - known[one]
-    return {
-        i: 0.0 if i < 3 and abs(v) <= THRESHOLDS.max_stated_rounding * size else v
-        for i, v in known.items()
-    }
+    most = THRESHOLDS.max_stated_rounding * size
+    return {i: 0.0 if i < 3 and abs(v) <= most else v for i, v in known.items()}
 
 
 def _is_contradictory(stated: Mapping[str, float], known: Mapping[int, float]) -> bool:
@@ -219,14 +212,11 @@ def _flatten_solution(problem: _BodyProblem, x: np.ndarray) -> np.ndarray:
         slope = (problem.directions @ thin).reshape(len(x), -1).T
         rest = (_build_matrix(problem, x) @ thin).ravel()
         flat = x - np.linalg.lstsq(slope, rest, rcond=1e-9)[0]
-        x = max(
-            (x, flat),
-            key=lambda choice: _compute_smallest_eigenvalue(_build_matrix(problem, choice)),
-        )
-        if (
-            _compute_smallest_eigenvalue(_build_matrix(problem, x))
-            > -THRESHOLDS.max_final_violation
-        ):
+        both = [
+            (_compute_smallest_eigenvalue(_build_matrix(problem, each)), each) for each in (x, flat)
+        ]
+        value, x = max(both, key=lambda pair: pair[0])
+        if value > -THRESHOLDS.max_final_violation:
             break
     return x
 
@@ -327,10 +317,8 @@ def draw_plant_parameters(
     if similar.shared:  # the first leg's links on all legs
         for shared in similar.shared:
             standard |= dict.fromkeys(shared.members, standard[shared.members[0]])
-        bodies = {
-            row: compute_body({p: standard.get(f"{p}{row}", 0.0) for p in INERTIAL})
-            for row in bodies
-        }
+        for row in bodies:
+            bodies[row] = compute_body({p: standard.get(f"{p}{row}", 0.0) for p in INERTIAL})
     return PlantParameters(standard, bodies, tuple(name for name in standard if name in drawn))
 
 
@@ -469,12 +457,8 @@ def _draw_bodies(robot: Robot, pose: np.ndarray, rng: np.random.Generator) -> di
     # The longest chain weighs what an arm of its reach weighs; other branches as this one.
     chain = path[max(reach, key=lambda name: reach[name])]
     on_it = np.array([name in chain for name in tips])
-    masses = (
-        THRESHOLDS.mass_per_squared_reach
-        * length[on_it].sum() ** 2
-        * weights
-        / weights[on_it].sum()
-    )
+    total = THRESHOLDS.mass_per_squared_reach * length[on_it].sum() ** 2
+    masses = total * weights / weights[on_it].sum()
     return {
         name: _draw_box(mass * rng.uniform(0.8, 1.2), tip, rng)
         for (name, tip), mass in zip(tips.items(), masses, strict=True)
@@ -512,13 +496,10 @@ def _find_tips(robot: Robot, pose: np.ndarray) -> dict[str, np.ndarray]:
             tips[link] = end
     lengths = np.array([np.linalg.norm(tip) for tip in tips.values()])
     real = lengths[lengths > 1e-6]
-    short = (
-        THRESHOLDS.short_link_share * real.mean() if real.size else THRESHOLDS.default_link_length
-    )
-    return {
-        name: tip if np.linalg.norm(tip) >= short else np.array([0.0, 0.0, short])
-        for name, tip in tips.items()
-    }
+    default = THRESHOLDS.default_link_length
+    short = THRESHOLDS.short_link_share * real.mean() if real.size else default
+    up = np.array([0.0, 0.0, short])
+    return {name: tip if np.linalg.norm(tip) >= short else up.copy() for name, tip in tips.items()}
 
 
 def merge_shared_names(

@@ -324,13 +324,10 @@ def _draw_presliding(rng: np.random.Generator, site: Site) -> dict[str, float]:
 def _compute_cable_hysteresis(shaft: Shaft, value: Values) -> Contribution:
     """Bouc and Wen's loop: F = level z, z' = (v - (b |v| z + (1 - b) v |z|) ) / width."""
     z, v = ca.SX.sym(f"cable_{shaft.name}"), shaft.speed
-    back = THRESHOLDS.bouc_wen_beta * ca.fabs(v) * z + (1 - THRESHOLDS.bouc_wen_beta) * v * ca.fabs(
-        z
-    )
-    rate, fastest = (
-        (v - back) / value["width"],
-        THRESHOLDS.speed_overshoot * shaft.top / value["width"],
-    )
+    beta = THRESHOLDS.bouc_wen_beta
+    back = beta * ca.fabs(v) * z + (1 - beta) * v * ca.fabs(z)
+    rate = (v - back) / value["width"]
+    fastest = THRESHOLDS.speed_overshoot * shaft.top / value["width"]
     return Contribution(value["level"] * z, state=z, rate=rate, fastest=fastest)
 
 

@@ -52,10 +52,8 @@ def apply_hidden_loads(
             name = effect.joint or find_last_link(robot)
             inertia = values["mass"] * values["radius"] ** 2 * np.eye(3)
             ball = Body(values["mass"], np.array([values[k] for k in "xyz"]), inertia)
-            one, other = (
-                compute_standard_parameters(bodies[name]),
-                compute_standard_parameters(ball),
-            )
+            one = compute_standard_parameters(bodies[name])
+            other = compute_standard_parameters(ball)
             bodies[name] = compute_body({p: one[p] + other[p] for p in one})
     return robot, dataclasses.replace(parameters, bodies=bodies)
 
@@ -187,9 +185,8 @@ def _build_open_plant(
     if k:
         following = ca.substitute(following, ahead, ca.SX.zeros(k))
     required_torque = links.inertia[:n, :n] @ qdd + links.bias[:n, :]
-    load = (
-        links.bias[:n, :] + _apply_load(effects, ca.vertcat(required_torque, ca.SX.zeros(k)))[:n, :]
-    )
+    torque = ca.vertcat(required_torque, ca.SX.zeros(k))
+    load = links.bias[:n, :] + _apply_load(effects, torque)[:n, :]
     z_rate = ca.vertcat(ahead_rate, solved[n:, :], effects.rate)
     return _assemble_plant(
         robot.free_joints,
@@ -264,15 +261,13 @@ def _build_closed_plant(
     J_s G_s = -J_q and J_s g_s = -J' vd by least squares. The principle of virtual work gives
     G^T M G qdd + G^T (M g + h) = tau: no constraint force does work.
     """
-    coordinate_rows, others, rows = (
-        constraints.coordinate_rows,
-        constraints.passive_rows,
-        len(robot.moving_joints),
-    )
-    q, qd, qdd, tau = (ca.SX.sym(name, len(coordinate_rows)) for name in ("q", "qd", "qdd", "tau"))
+    free = constraints.coordinate_rows
+    others = constraints.passive_rows
+    rows = len(robot.moving_joints)
+    q, qd, qdd, tau = (ca.SX.sym(name, len(free)) for name in ("q", "qd", "qdd", "tau"))
     follow = ca.SX.sym("follow", len(others))
-    v, G, g = ca.SX.zeros(rows), ca.SX.zeros(rows, len(coordinate_rows)), ca.SX.zeros(rows)
-    v[coordinate_rows], v[others] = q, follow
+    v, G, g = ca.SX.zeros(rows), ca.SX.zeros(rows, len(free)), ca.SX.zeros(rows)
+    v[free], v[others] = q, follow
     slope = _expand_function(constraints.jacobian, v)
     inner = slope[:, others]
     factors = ca.ldl(inner.T @ inner, False)  # L D L' without pivoting: away from singularities
@@ -280,15 +275,10 @@ def _build_closed_plant(
     def solve_least_squares(right: ca.SX) -> ca.SX:
         return ca.ldl_solve(inner.T @ right, *factors)
 
-    G[coordinate_rows, :], G[others, :] = (
-        ca.SX.eye(len(coordinate_rows)),
-        -solve_least_squares(slope[:, coordinate_rows]),
-    )
+    G[free, :], G[others, :] = (ca.SX.eye(len(free)), -solve_least_squares(slope[:, free]))
     vd = G @ qd
     g[others] = -solve_least_squares(_expand_function(constraints.curvature, v, vd))
-    closer = follow - solve_least_squares(
-        _expand_function(constraints.residual, v)
-    )  # after a step of Newton
+    closer = follow - solve_least_squares(_expand_function(constraints.residual, v))
     z = ca.vertcat(follow, effects.state)
     tree = [links.inertia + ca.SX(effects.inertia), links.bias, effects.torque, effects.rate]
     tree += effects.temperatures.values()
@@ -348,9 +338,8 @@ def build_motor_inertia(plant: Plant) -> ca.Function:
     q, z = ca.SX.sym("q", len(plant.joints)), ca.SX.sym("z", plant.states)
     if np.all(plant.driven):
         return ca.Function("felt", [q, z], [plant.inertia(q)])
-    driven, passive = (
-        list(map(int, np.flatnonzero(plant.driven == is_driven))) for is_driven in (True, False)
-    )
+    is_driven = plant.driven
+    driven, passive = (list(map(int, np.flatnonzero(x))) for x in (is_driven, ~is_driven))
     inertia = plant.inertia(q)
     motor_inertia = ca.SX.zeros(inertia.shape)
     motor_inertia[driven, driven] = inertia[driven, driven] - inertia[driven, passive] @ ca.solve(
@@ -462,9 +451,8 @@ def _compute_jacobian(
 
     x = np.concatenate([pose, rest, z])
     # Steps well inside the smooth core of dry friction (1e-3 of the top speed).
-    size = np.concatenate(
-        [np.full(n, 1e-6), [1e-6 * limit.speed for limit in limits], np.full(z.size, 1e-6)]
-    )
+    speeds = [1e-6 * limit.speed for limit in limits]
+    size = np.concatenate([np.full(n, 1e-6), speeds, np.full(z.size, 1e-6)])
     columns = [
         (compute_rate(x + h * unit) - compute_rate(x - h * unit)) / (2 * h)
         for h, unit in zip(size, np.eye(x.size), strict=True)

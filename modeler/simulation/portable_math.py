@@ -114,10 +114,9 @@ def make_portable(function: ca.Function) -> ca.Function:
             values[written[0]] = ca.SX(function.instruction_constant(k))
         else:
             values[written[0]] = rounded.apply_operation(operation, [values[i] for i in read])
-    outputs = [
-        ca.SX(function.sparsity_out(k), ca.vertcat(ca.SX(0, 1), *result))
-        for k, result in enumerate(results)
-    ]
+    shapes = enumerate(results)
+    columns = ((k, ca.vertcat(ca.SX(0, 1), *result)) for k, result in shapes)
+    outputs = [ca.SX(function.sparsity_out(k), column) for k, column in columns]
     return ca.Function(function.name(), arguments, outputs, function.name_in(), function.name_out())
 
 

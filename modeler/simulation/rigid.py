@@ -89,9 +89,8 @@ def _compute_rotation(angle: ca.SX | float, about: str) -> ca.SX:
     if isinstance(angle, ca.SX):
         c, s = ca.cos(angle), ca.sin(angle)
     else:  # cos(pi/2) is 6e-17 in floating point; an exact 0 keeps the expressions small
-        s, c = (
-            ca.SX(x if abs(x) > 1e-15 else 0.0) for x in map(float, compute_sine_and_cosine(angle))
-        )
+        values = map(float, compute_sine_and_cosine(angle))
+        s, c = (ca.SX(x if abs(x) > 1e-15 else 0.0) for x in values)
     if about == "z":
         return ca.vertcat(ca.horzcat(c, -s, 0), ca.horzcat(s, c, 0), ca.horzcat(0, 0, 1))
     return ca.vertcat(ca.horzcat(1, 0, 0), ca.horzcat(0, c, -s), ca.horzcat(0, s, c))
@@ -257,9 +256,8 @@ def _compute_motions(
         before, frame = motions[joint.antecedent], frames[joint.name]
         arm = frame.position - frames[joint.antecedent].position
         spin, spin_rate = before.spin, before.spin_rate
-        acceleration = (
-            before.acceleration + ca.cross(spin_rate, arm) + ca.cross(spin, ca.cross(spin, arm))
-        )
+        acceleration = before.acceleration + ca.cross(spin_rate, arm)
+        acceleration += ca.cross(spin, ca.cross(spin, arm))
         if joint.is_moving:
             axis, i = frame.axis, index[joint.name]
             if joint.is_revolute:

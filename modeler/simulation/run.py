@@ -8,24 +8,10 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.robot import Joint, Limits, Robot, compute_joint_directions
-from modeler.simulation.closing import (
-    ClosedMotion,
-    Constraints,
-    build_constraints,
-    compute_closed_postures,
-    compute_motor_torques,
-    compute_rates,
-    evaluate_samples,
-    find_closed_motion,
-)
+from modeler.simulation import closing, log, trajectory
+from modeler.simulation.closing import ClosedMotion, Constraints, build_constraints
 from modeler.simulation.hidden_draw import complete_effects
-from modeler.simulation.log import (
-    HiddenEffect,
-    SimulatedLog,
-    SimulationSettings,
-    Truth,
-    check_settings,
-)
+from modeler.simulation.log import HiddenEffect, SimulatedLog, SimulationSettings, Truth
 from modeler.simulation.parameters import PlantParameters, draw_plant_parameters, merge_shared_names
 from modeler.simulation.plant import (
     FastFunction,
@@ -42,14 +28,7 @@ from modeler.simulation.plant import (
 from modeler.simulation.portable_math import compute_exponential, compute_sine_and_cosine
 from modeler.simulation.shafts import compute_rest_states
 from modeler.simulation.thresholds import THRESHOLDS
-from modeler.simulation.trajectory import (
-    Reference,
-    build_exciting_reference,
-    build_one_joint_reference,
-    build_point_to_point_reference,
-    collect_motion_limits,
-    widen_limits,
-)
+from modeler.simulation.trajectory import Reference, widen_limits
 
 
 def compute_encoder_resolution(joints: Sequence[Joint], settings: SimulationSettings) -> np.ndarray:
@@ -122,9 +101,8 @@ def read_encoders(faults: SensorFaults, position: np.ndarray) -> np.ndarray:
 def invert_encoders(faults: SensorFaults, reading: np.ndarray) -> np.ndarray:
     """Returns (joints,) positions at which such encoders read that."""
     position = np.array(reading, dtype=float)
-    for _ in range(
-        THRESHOLDS.encoder_inversion_passes if faults.waves or np.any(faults.offset) else 0
-    ):
+    is_needed = faults.waves or np.any(faults.offset)
+    for _ in range(THRESHOLDS.encoder_inversion_passes if is_needed else 0):
         position = position - (read_encoders(faults, position) - reading)
     return position
 
@@ -242,11 +220,9 @@ def update_controller(
     error = gains.position * (q - measured) + gains.forward * qd - speed
     rise = _multiply_in_order(inertia, gains.integral * gains.tick * error)
     effort = state.effort + rise
-    unlimited_torque = (
-        _multiply_in_order(inertia, gains.speed * error + gains.forward * qdd) + effort
-    )
-    torque = np.minimum(np.maximum(unlimited_torque, -gains.highest), gains.highest)
-    winding = (unlimited_torque != torque) & (unlimited_torque * rise > 0)
+    wanted = _multiply_in_order(inertia, gains.speed * error + gains.forward * qdd) + effort
+    torque = np.minimum(np.maximum(wanted, -gains.highest), gains.highest)
+    winding = (wanted != torque) & (wanted * rise > 0)
     return ControllerState(measured, speed, np.where(winding, state.effort, effort)), torque
 
 
@@ -325,8 +301,8 @@ def simulate(
             that do not close on the motion; says what to change.
     """
     settings = settings or SimulationSettings()
-    check_settings(settings, tuple(joint.name for joint in robot.coordinates))
-    all_limits = collect_motion_limits(robot, settings.limits)
+    log.check_settings(settings, tuple(joint.name for joint in robot.coordinates))
+    all_limits = trajectory.collect_motion_limits(robot, settings.limits)
     if robot.loops and not settings.controller:
         return _simulate_exact_command(robot, all_limits, settings, progress)
     parameters = draw_plant_parameters(robot, all_limits, settings.parameter_seed)
@@ -341,9 +317,8 @@ def simulate(
     gains = tune_gains(settings.rate, settings.bandwidth, settings.feedforward, highest)
     faults = collect_sensor_faults(plant.joints, hidden)
     resolution = compute_encoder_resolution(robot.coordinates, settings)
-    random = draw_process_torques(
-        settings, len(reference.time), np.sqrt(np.mean(needed**2, axis=0))
-    )
+    rms = np.sqrt(np.mean(needed**2, axis=0))
+    random = draw_process_torques(settings, len(reference.time), rms)
     states, tau, measured = _run_closed_loop(task, gains, faults, resolution, random, progress)
     q, qd, z = states[:, :n], states[:, n : 2 * n], states[:, 2 * n :]
     samples = [each.T for each in (q, qd, z, tau + random)]
@@ -371,19 +346,17 @@ def _simulate_exact_command(
     parameters = draw_plant_parameters(robot, all_limits, settings.parameter_seed)
     hidden = complete_effects(robot, parameters, all_limits, settings)
     v, reference = motion.v, motion.reference
-    vd, vdd = compute_rates(constraints, v, reference.qd, reference.qdd)
-    torque, states = build_torque_function(
-        *apply_hidden_loads(robot, parameters, hidden), all_limits, hidden
-    )
-    load = evaluate_samples(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
-    needed = compute_motor_torques(constraints, v, load)
+    vd, vdd = closing.compute_rates(constraints, v, reference.qd, reference.qdd)
+    loaded = apply_hidden_loads(robot, parameters, hidden)
+    torque, states = build_torque_function(*loaded, all_limits, hidden)
+    load = closing.evaluate_samples(torque, v, vd, vdd, np.zeros((len(v), states)))[:, :, 0]
+    needed = closing.compute_motor_torques(constraints, v, load)
     # What pushes on a machine that moves as commanded is pushed back by its motors.
     rms = np.sqrt(np.mean(needed**2, axis=0))
     tau = needed - draw_process_torques(settings, len(needed), rms)
     faults = collect_sensor_faults([joint.name for joint in robot.coordinates], hidden)
-    measured = quantise_position(
-        reference.q, compute_encoder_resolution(robot.coordinates, settings)
-    )
+    resolution = compute_encoder_resolution(robot.coordinates, settings)
+    measured = quantise_position(reference.q, resolution)
     logged = compute_sampled_torques(faults, reference.time, tau)
     exact_motion = (reference.q, reference.qd, reference.qdd, tau)
     truth = Truth(*exact_motion, *merge_shared_names(robot, parameters), hidden)
@@ -401,11 +374,11 @@ def _build_closed_command(
     names = [joint.name for joint in robot.moving_joints]
     limits = tuple(all_limits[names.index(joint.name)] for joint in robot.coordinates)
     if (reference := settings.commanded) is not None:
-        closed = compute_closed_postures(robot, constraints, reference.q, progress)
+        closed = closing.compute_closed_postures(robot, constraints, reference.q, progress)
         return widen_limits(limits, reference), ClosedMotion(reference, closed, 1.0)
 
     commanded = partial(_build_reference, settings)
-    return limits, find_closed_motion(robot, constraints, limits, commanded, progress)
+    return limits, closing.find_closed_motion(robot, constraints, limits, commanded, progress)
 
 
 def _build_reference(
@@ -414,13 +387,11 @@ def _build_reference(
     """The motion of that name within limits."""
     timed = limits, settings.duration, settings.rate, settings.seed
     if settings.motion == "one-joint":
-        return build_one_joint_reference(*timed, directions)
+        return trajectory.build_one_joint_reference(*timed, directions)
     is_point_to_point = settings.motion == "point-to-point"
-    return (
-        build_point_to_point_reference(*timed)
-        if is_point_to_point
-        else build_exciting_reference(*timed)
-    )
+    if is_point_to_point:
+        return trajectory.build_point_to_point_reference(*timed)
+    return trajectory.build_exciting_reference(*timed)
 
 
 def build_task(
@@ -485,23 +456,18 @@ def _run_closed_loop(
     plant, reference = task.plant, task.reference
     n, ticks = len(plant.joints), reference.time.size
     start, rest = invert_encoders(faults, reference.q[0]), np.zeros(n)
-    x = np.concatenate(
-        [start, rest, compute_rest_states(plant.strain, start, task.states_along[0])]
-    )
+    inner = compute_rest_states(plant.strain, start, task.states_along[0])
+    x = np.concatenate([start, rest, inner])
     # The brakes open with the torque that carries the robot, as drives store it.
     torque = plant.torque(x[:n], rest, rest, x[2 * n :]).full().ravel()
     torque = np.clip(torque, -gains.highest, gains.highest)
-    state = ControllerState(
-        quantise_position(read_encoders(faults, x[:n]), resolution), rest, torque
-    )
+    measured_start = quantise_position(read_encoders(faults, x[:n]), resolution)
+    state = ControllerState(measured_start, rest, torque)
     steps = choose_steps_per_tick(plant, task.limits, gains.tick, select_postures(task))
     advance = FastFunction(build_tick_function(plant, gains.tick, steps))
     mass = FastFunction(build_motor_inertia(plant))
-    states, torques, measured = (
-        np.empty((ticks, x.size)),
-        np.empty((ticks, n)),
-        np.empty((ticks, n)),
-    )
+    states = np.empty((ticks, x.size))
+    torques, measured = np.empty((ticks, n)), np.empty((ticks, n))
     for begin in range(0, ticks, THRESHOLDS.ticks_per_report):
         with np.errstate(over="ignore", invalid="ignore"):  # a lost robot is reported below
             for k in range(begin, min(begin + THRESHOLDS.ticks_per_report, ticks)):

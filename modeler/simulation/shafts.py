@@ -90,13 +90,8 @@ def _iterate_shaft_effects(
     robot: Robot, parameters: PlantParameters, hidden: tuple[HiddenEffect, ...]
 ) -> Iterator[tuple[str, str, np.ndarray, Act, Values]]:
     """Name, joint, (moving rows,) r of the speed r . qd of its shaft, physics and its values."""
-    unit = dict(
-        zip(
-            (joint.name for joint in robot.moving_joints),
-            np.eye(len(robot.moving_joints)),
-            strict=True,
-        )
-    )
+    names = [joint.name for joint in robot.moving_joints]
+    unit = dict(zip(names, np.eye(len(names)), strict=True))
     replaced_effects = {(old, h.joint) for h in hidden for old in HIDDEN[h.effect].replaces}
     for joint in unit:
         for physics in find_joint_physics(robot, joint):
@@ -131,9 +126,8 @@ def _compute_push(
     """
     values = effect.values
     turns, offset = tie
-    frame = compute_world_frames(robot, ca.SX(turns) @ links.q + offset)[
-        robot.moving_joints[-1].name
-    ]
+    poses = compute_world_frames(robot, ca.SX(turns) @ links.q + offset)
+    frame = poses[robot.moving_joints[-1].name]
     point = frame.position + frame.rotation @ ca.SX([values[k] for k in "xyz"])
     work = ca.dot(ca.SX([values[k] for k in ("fx", "fy", "fz")]), point)
     clock = ca.SX.sym("clock")

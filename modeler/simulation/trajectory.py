@@ -109,9 +109,8 @@ def build_one_joint_reference(
         last = float(np.min(np.max(sides, axis=0)))
         start_point, along = place + first * direction, (last - first) * direction
         steps = [(start_point - here, 1.0)]
-        steps += [
-            (sign * along, level) for level in THRESHOLDS.single_joint_speeds for sign in (1, -1)
-        ]
+        levels = THRESHOLDS.single_joint_speeds
+        steps += [(sign * along, level) for level in levels for sign in (1, -1)]
         moves = [(step, path.compute_move_time(step, level)) for step, level in steps]
         home = path.compute_move_time(path.middle - start_point)
         if (
@@ -180,9 +179,8 @@ class _ReferenceBuilder:
             )
         self.limits, self.time = limits, np.arange(count) / rate
         self.middle = np.array([(limit.lower + limit.upper) / 2 for limit in limits])
-        self.reach = THRESHOLDS.range_margin * np.array(
-            [(limit.upper - limit.lower) / 2 for limit in limits]
-        )
+        half = np.array([(limit.upper - limit.lower) / 2 for limit in limits])
+        self.reach = THRESHOLDS.range_margin * half
         self.values = np.zeros((3, count, len(limits)))
         self.values[0] = self.middle
 
@@ -356,10 +354,8 @@ def _read_table(path: Path) -> pa.Table:
         one_by_one = pacsv.ReadOptions(use_threads=False)  # which knows the row of an error
         return pacsv.read_csv(io.BytesIO(content), one_by_one)
     except (pa.ArrowException, OSError) as error:
-        first, table = (
-            str(error).splitlines()[0],
-            "CSV" if path.suffix == ".csv" else "Parquet file",
-        )
+        first = str(error).splitlines()[0]
+        table = "CSV" if path.suffix == ".csv" else "Parquet file"
         raise DataError(
             f"{path}: cannot be read as a table of columns ({first}); correct it, or write the "
             f"{table} again"
