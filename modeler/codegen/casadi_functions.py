@@ -120,11 +120,8 @@ def build_casadi_functions(
     composed = [f.role for f in listed if f.composed and f.role != "forward_dynamics"]
     if composed:
         missing = (f"not there: {', '.join(composed)}, which return a status in C",)
-    solve = (
-        _build_forward_by_newton
-        if control.build_efforts(model, beta).is_implicit
-        else _build_forward
-    )
+    is_implicit = control.build_efforts(model, beta).is_implicit
+    solve = _build_forward_by_newton if is_implicit else _build_forward
     for head in ("", SMOOTH)[: 1 + bool(turning)]:
         functions[f"{head}forward_dynamics"] = solve(head, functions)
     return list(functions.values()), missing
@@ -138,10 +135,9 @@ def _build_function(model: SymbolicModel, f: CFunction, turning: Sequence[str] =
     graph = f.entries[0][1].graph if f.entries else model.graph
     arithmetic = _SYMBOLIC
     if "widths" in inputs:
-        over = {
-            speed: inputs["widths"][turning.index(control.get_turning_joint(width))]
-            for speed, width in find_widths("", model, [f]).items()
-        }
+        speeds = find_widths("", model, [f]).items()
+        places = {v: turning.index(control.get_turning_joint(width)) for v, width in speeds}
+        over = {speed: inputs["widths"][place] for speed, place in places.items()}
         arithmetic = _smooth_signs(graph, values, over)
     numbers = [ca.SX(0)] * f.output.size
     outputs = Plan(graph, [value for _, value in f.entries], arithmetic)(values)

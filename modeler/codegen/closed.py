@@ -58,13 +58,9 @@ class LoopSolver:
     def values(self) -> list[Expr]:
         """Returns what the function `closure` writes; see modeler_closure.h."""
         closure = self.closure
-        return [
-            *closure.equations,
-            *closure.others,
-            *closure.alignments,
-            *self.pattern.entries,
-            *self.shared_sines.values,
-        ]
+        closure, shared = self.closure, self.shared_sines.values
+        loops = [*closure.equations, *closure.others, *closure.alignments]
+        return [*loops, *self.pattern.entries, *shared]
 
     @property
     def equation_count(self) -> int:
@@ -121,15 +117,9 @@ def _build_solving_functions(
 ) -> list[CFunction]:
     """Returns those of the opened tree that solve the loops, of the free variables as q."""
     closure, turns = solving.closure, solving.shared_sines
-    sizes = {
-        "u": len(closure.home),
-        "m": len(closure.equations),
-        "g": len(closure.actuated),
-        "c": base.rank,
-        "nonzeros": len(solving.pattern.entries),
-        "turns": len(turns.values),
-        "values": len(solving.values),
-    }
+    sizes = {"u": len(closure.home), "m": len(closure.equations), "g": len(closure.actuated)}
+    sizes |= {"c": base.rank, "nonzeros": len(solving.pattern.entries)}
+    sizes |= {"turns": len(turns.values), "values": len(solving.values)}
 
     def shared(each: Elimination) -> Arguments:
         words = sizes | {"factors": len(each.factors), "couplings": len(each.coupling)}
@@ -138,13 +128,9 @@ def _build_solving_functions(
     given = shared(solving.eliminations[""])
     every = [("closure", given, solving.values), ("residual", given, closure.equations)]
     for head, each in solving.eliminations.items():
-        values = {
-            "factor": each.factors,
-            "solve": each.solution,
-            "coupling": [value for _, _, value in each.coupling],
-            "turned": each.change_bounds,
-            "spread": [each.change_squares],
-        }
+        values: dict[str, Sequence[Expr]] = {"factor": each.factors, "solve": each.solution}
+        values |= {"coupling": [value for _, _, value in each.coupling]}
+        values |= {"turned": each.change_bounds, "spread": [each.change_squares]}
         every += [(f"{head}{role}", shared(each), numbers) for role, numbers in values.items()]
     functions = [
         arguments.declare(f"tree_{role}", numbers, row=role.removeprefix(PLATFORM), internal=True)
@@ -224,12 +210,8 @@ class _CoordinateSet:
         """Returns one that closes the loops; `made` as `Closed` says."""
         entry = read_catalogue()["closed"][row or name]
         motion = [self.arguments.words.get(name, name) for name in entry.get("motion", "").split()]
-        made = {
-            "kind": entry["kind"],
-            "reads": entry.get("reads", ""),
-            **dict(zip(("qd", "qdd"), motion, strict=False)),
-            **made,
-        }
+        derivatives = dict(zip(("qd", "qdd"), motion, strict=False))
+        made = {"kind": entry["kind"], "reads": entry.get("reads", ""), **derivatives, **made}
         if entry["kind"] not in ("posture", "coupling"):
             made = {"role": name, **made}
         closed = Closed(loops=f"{self.head}loops", q=self.arguments["q"].name, **made)

@@ -104,11 +104,9 @@ def find_deciding_symbols(geometry: Geometry) -> frozenset[str]:
             numbers[name] = math.nan  # equal to nothing
     numbers |= {joint.variable: 0.0 for joint in robot.joints}
     columns = ("gamma", "b", "alpha", "d", "theta", "r")
-    cells: list[tuple[Expression, sympy.Expr]] = [
-        (getattr(row.joint, column), getattr(row, column))
-        for row in geometry.rows
-        for column in columns
-    ]
+    cells: list[tuple[Expression, sympy.Expr]] = []
+    for row in geometry.rows:
+        cells += [(getattr(row.joint, column), getattr(row, column)) for column in columns]
     deciding: set[str] = set()
     for cell, entry in (*cells, *zip(robot.gravity, geometry.gravity, strict=True)):
         leaves = {name: moved[name] for name in _find_leaves(robot, cell) if name in moved}

@@ -115,11 +115,8 @@ def build_smooth_functions(
 
     None where no friction leaps.
     """
-    functions = [
-        function
-        for function in layout.build_dynamics_functions(model, beta, arguments)
-        if function.role in ("inverse_dynamics", "friction")
-    ]
+    every = layout.build_dynamics_functions(model, beta, arguments)
+    functions = [f for f in every if f.role in ("inverse_dynamics", "friction")]
     count = len(dict.fromkeys(find_widths("", model, functions).values()))
     spec = arguments.extend("smooth", widths=count)["widths"]
     return tuple(
@@ -265,13 +262,12 @@ def format_state_prototypes(prefix: str, function: CFunction, number: str) -> tu
     name = f"{prefix}_{function.role}_at"
     plain, state = layout.format_arguments(reduced, number, prefix), f"struct {prefix}_state *state"
     posture = [f"struct {prefix}_posture *p", f"{number} *rows"]
-    defined_arguments = layout.format_arguments(reduced, number, prefix, defined=True)
+    defined = layout.format_arguments(reduced, number, prefix, defined=True)
+    made = [*posture, *defined]
     return (
-        layout.format_prototype(
-            f"made_{function.role}", [*posture, *defined_arguments], "static void"
-        ),
+        layout.format_prototype(f"made_{function.role}", made, "static void"),
         layout.format_prototype(name, [state, *plain], "int"),
-        layout.format_prototype(name, [state, *defined_arguments], "int"),
+        layout.format_prototype(name, [state, *defined], "int"),
     )
 
 
@@ -472,11 +468,9 @@ def _build_frames(model: SymbolicModel, control: Control, arguments: Arguments) 
             raise EmitError(
                 f'frame "{name}": functions of another frame or role end in {suffix} too; rename it'
             )
-    return [
-        function
-        for suffix, name in suffixes.items()
-        for function in _build_frame_functions(model, name, suffix, arguments)
-    ]
+    names = suffixes.items()
+    listed = (_build_frame_functions(model, name, suffix, arguments) for suffix, name in names)
+    return [function for functions in listed for function in functions]
 
 
 def _build_frame_functions(
@@ -491,7 +485,5 @@ def _build_frame_functions(
         "jacobian_dot_qd": derivation.derive_jacobian_dot_qd(model, frame),
         "twist": derivation.derive_twist(model, frame),
     }
-    return [
-        arguments.declare(f"{role}{suffix}", each, {"frame": of}, row=role)
-        for role, each in values.items()
-    ]
+    more = {"frame": of}
+    return [arguments.declare(f"{r}{suffix}", x, more, row=r) for r, x in values.items()]

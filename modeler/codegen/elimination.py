@@ -39,12 +39,9 @@ class SparsityPattern:
 def find_pattern(model: SymbolicModel) -> SparsityPattern:
     """Returns the nonzeros of the closure's Jacobian."""
     assert model.closure is not None
-    nonzeros = [
-        ((i, k), entry)
-        for i, line in enumerate(model.closure.jacobian)
-        for k, entry in enumerate(line)
-        if not entry.is_zero
-    ]
+    lines = enumerate(model.closure.jacobian)
+    entries = [((i, k), entry) for i, line in lines for k, entry in enumerate(line)]
+    nonzeros = [pair for pair in entries if not pair[1].is_zero]
     return SparsityPattern(
         tuple(place for place, _ in nonzeros), tuple(entry for _, entry in nonzeros)
     )
@@ -175,10 +172,8 @@ def _order_pivots(values: np.ndarray, pattern: set[tuple[int, int]]) -> list[tup
     for _ in range(m):
         live = sorted((i, j) for i, j in left if i in rows and j in columns)
         height = {j: np.abs(A[:, sorted(rows), j]).max(axis=1) for j in columns}
-        share = {
-            (i, j): float(np.min(np.abs(A[:, i, j]) / np.maximum(height[j], 1e-300)))
-            for i, j in live
-        }
+        floors = {j: np.maximum(height[j], 1e-300) for j in columns}
+        share = {(i, j): float(np.min(np.abs(A[:, i, j]) / floors[j])) for i, j in live}
         good = [place for place in live if share[place] >= THRESHOLDS.min_pivot_share]
         if good:
             width = {i: sum(1 for r, _ in live if r == i) - 1 for i in rows}
@@ -293,15 +288,11 @@ class SharedSines:
 
 def find_shared_sines(graph: Graph, outputs: Sequence[Expr]) -> SharedSines:
     """Returns the sines and cosines of positions that the outputs read."""
-    nodes = [
-        k
-        for k in graph.find_reachable(outputs)
-        if graph.nodes[k].op in _TURNS and not graph.nodes[k].static and _is_positional(graph, k)
-    ]
-    return SharedSines(
-        values=tuple(Expr(graph, k) for k in nodes),
-        symbols={k: graph.symbol(f"t[{at}]") for at, k in enumerate(nodes)},
-    )
+    reachable = ((k, graph.nodes[k]) for k in graph.find_reachable(outputs))
+    turning = (k for k, node in reachable if node.op in _TURNS and not node.static)
+    nodes = [k for k in turning if _is_positional(graph, k)]
+    symbols = {k: graph.symbol(f"t[{at}]") for at, k in enumerate(nodes)}
+    return SharedSines(values=tuple(Expr(graph, k) for k in nodes), symbols=symbols)
 
 
 def _is_positional(graph: Graph, node: int) -> bool:
@@ -313,11 +304,9 @@ def _is_positional(graph: Graph, node: int) -> bool:
 def list_base_entries(model: SymbolicModel, base: BaseParameters) -> dict[tuple[int, int], Expr]:
     """Returns {(free variable, base parameter): entry} of the tree's regressor, zeros left out."""
     place = {parameter.column: i for i, parameter in enumerate(base.parameters)}
-    return {
-        (row, place[k]): value
-        for (row, k), value in sorted(model.regressor.items(), key=lambda item: item[0])
-        if k in place and not value.is_zero
-    }
+    entries = sorted(model.regressor.items(), key=lambda item: item[0])
+    entries = [((row, k), value) for (row, k), value in entries if k in place and not value.is_zero]
+    return {(row, place[k]): value for (row, k), value in entries}
 
 
 def build_fused_regressor(
@@ -529,15 +518,10 @@ def build_closing_tile(
         inputs = tuple(argument.name for argument in f.inputs)
         read = {symbol.partition("[")[0] for symbol in block.symbols}
         written = {at for at, _ in f.entries}
-        zeros = (
-            ()
-            if rows
-            else tuple(
-                f"{out}[{at}] = modeler_lanes_spread(0);"
-                for at in range(f.output.size)
-                if at not in written
-            )
-        )
+        zeros: tuple[str, ...] = ()
+        if not rows:
+            unwritten = (at for at in range(f.output.size) if at not in written)
+            zeros = tuple(f"{out}[{at}] = modeler_lanes_spread(0);" for at in unwritten)
         unread = tuple(f"(void){name};" for name in inputs if name not in read)
         lines = (*unread, *block.constants, *block.calls, *block.body, *zeros)
         parts.append(ClosingFunction(name, inputs, None if rows else out, lines))
@@ -579,13 +563,9 @@ def build_tile(
             if f"{name}[{i}]" in block.symbols
         ]
     unread = tuple(name for name in ("q", "qd", "qdd", "s") if not loads.get(name))
-    parts = [
-        [f"(void){name};" for name in unread],
-        block.constants,
-        [line for lines in loads.values() for line in lines],
-        block.calls,
-        block.body,
-    ]
+    voids = [f"(void){name};" for name in unread]
+    rows_read = [line for lines in loads.values() for line in lines]
+    parts = [voids, block.constants, rows_read, block.calls, block.body]
     return Tile(
         lines=tuple([line for part in parts if part for line in ("", *part)][1:]),
         steps=tuple(

@@ -253,11 +253,10 @@ def _build_parts(
     control: Control | None,
 ) -> Iterator[Sequence[CFunction]]:
     """The functions of the robot, those with its fitted values, those of the controller's unit."""
-    yield (
-        layout.build_tree_functions(model, base)
-        if solving is None
-        else closed.build_closed_functions(model, base, solving)
-    )
+    if solving is None:
+        yield layout.build_tree_functions(model, base)
+    else:
+        yield closed.build_closed_functions(model, base, solving)
     yield build_fitted_functions(model, base, fitted) if fitted is not None else ()
     more = build_control_functions(model, base, control) if control is not None else ()
     if control is not None and fitted is not None:
@@ -415,10 +414,8 @@ def _build_fitted_unit(
     values |= {"outer": [f for f in written if not f.internal]}
 
     def files(fitted: FittedSpec) -> dict[str, str]:
-        return {
-            f"{prefix}{UNIT}.{kind}": module.render(f"fitted.{kind}", **values, fitted=fitted)
-            for kind in ("h", "c")
-        }
+        names = {f"{prefix}{UNIT}.{kind}": f"fitted.{kind}" for kind in ("h", "c")}
+        return {name: module.render(path, **values, fitted=fitted) for name, path in names.items()}
 
     # The signature stands in the unit, so it comes last: it covers all the rest.
     fitted = dataclasses.replace(fitted, code=manifest.digest_code(files(fitted)))

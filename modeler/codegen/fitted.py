@@ -79,10 +79,9 @@ def fitted_constants(
     model: SymbolicModel, base: BaseParameters, fitted: FittedSpec
 ) -> dict[int, Expr]:
     """Returns the fitted values as constants of the graph, by standard column."""
-    return {
-        parameter.column: model.graph.constant(Fraction(repr(float(known.value))))
-        for parameter, known in zip(base.parameters, fitted.parameters, strict=True)
-    }
+    values = (Fraction(repr(float(known.value))) for known in fitted.parameters)
+    pairs = zip(base.parameters, values, strict=True)
+    return {parameter.column: model.graph.constant(value) for parameter, value in pairs}
 
 
 def remove_beta(function: CFunction, unit: str) -> CFunction:
@@ -94,14 +93,9 @@ def remove_beta(function: CFunction, unit: str) -> CFunction:
     if composed is not None:
         roles = {word: _twin(role) for word, role in composed.roles.items()}
         composed = replace(composed, roles=roles)
-    return replace(
-        function,
-        unit=unit,
-        role=_twin(function.role),
-        inputs=tuple(a for a in function.inputs if a.name != "beta"),
-        closed=closed,
-        composed=composed,
-    )
+    inputs, role = tuple(a for a in function.inputs if a.name != "beta"), _twin(function.role)
+    changed = replace(function, unit=unit, role=role, inputs=inputs)
+    return replace(changed, closed=closed, composed=composed)
 
 
 def _twin(role: str) -> str:
@@ -127,11 +121,11 @@ def find_widths(
             speed = abs(combine_along_shaft(model, part.shaft, "qd").ref)
             if speed in read and speed not in widths:
                 joint = model.robot.joints[part.row]
-                widths[speed] = Width(
+                macro, name = (
                     f"{prefix.upper()}_COULOMB_WIDTH_{joint.name}",
                     f"{prefix}_width_{joint.name}",
-                    f"{joint.unit}/s",
                 )
+                widths[speed] = Width(macro, name, f"{joint.unit}/s")
     return widths
 
 

@@ -222,11 +222,10 @@ def make_beta_symbols(model: SymbolicModel, base: BaseParameters) -> dict[int, E
 def build_tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[CFunction, ...]:
     """Returns all functions of a module without loops, in the order of the header."""
     arguments = make_arguments(model.robot.free_joints, model, base)
-    functions = [
-        *_build_regressors(model, base, arguments),
-        *build_dynamics_functions(model, make_beta_symbols(model, base), arguments),
-        build_grouping_function(model, base, arguments),
-    ]
+    functions = [*_build_regressors(model, base, arguments)]
+    beta = make_beta_symbols(model, base)
+    functions += build_dynamics_functions(model, beta, arguments)
+    functions.append(build_grouping_function(model, base, arguments))
     poses = model.derive_forward_kinematics()
     numbers = [value for pose in poses for row in pose for value in row]
     kinematics = arguments.declare("forward_kinematics", numbers, {"rows": len(poses)})
@@ -237,10 +236,8 @@ def make_arguments(
     joints: Sequence[Joint], model: SymbolicModel, base: BaseParameters
 ) -> Arguments:
     """Returns the arguments of functions whose positions are those of `joints`."""
-    angle, effort = (
-        " or ".join(dict.fromkeys(getattr(joint, unit) for joint in joints))
-        for unit in ("unit", "effort_unit")
-    )
+    units = ([getattr(joint, unit) for joint in joints] for unit in ("unit", "effort_unit"))
+    angle, effort = (" or ".join(dict.fromkeys(each)) for each in units)
     rate, acceleration = (" or ".join(u + s for u in angle.split(" or ")) for s in ("/s", "/s2"))
     words: dict[str, Any] = {"angle": angle, "rate": rate, "effort": effort}
     words |= {"acceleration": acceleration}
@@ -315,10 +312,9 @@ def _describe_friction_holds(model: SymbolicModel) -> str:
             still = part.acts is EffectTarget.POSITION or not moved
             if still and part.kind != "offset":
                 joints.setdefault(part.effect, {})[model.robot.joints[part.row].name] = None
-    return " and ".join(
-        f"the {effect.replace('_', ' ')} of joint{'s' * (len(names) > 1)} {', '.join(names)}"
-        for effect, names in joints.items()
-    )
+    texts = {effect.replace("_", " "): names for effect, names in joints.items()}
+    pairs = ((effect, f"joint{'s' * (len(n) > 1)} {', '.join(n)}") for effect, n in texts.items())
+    return " and ".join(f"the {effect} of {names}" for effect, names in pairs)
 
 
 def needs_more_than_speed(model: SymbolicModel) -> bool:
@@ -337,12 +333,10 @@ def needs_more_than_speed(model: SymbolicModel) -> bool:
 
 def needs_torques(model: SymbolicModel) -> bool:
     """Returns True if an effect reads more than the motion of joints."""
-    return any(
-        part.acts is EffectTarget.POSITION or not part.equation.names.isdisjoint(_TORQUES)
-        for column in model.columns
-        if isinstance(column, ShaftColumn)
-        for part in column.parts
-    )
+    shafts = (column for column in model.columns if isinstance(column, ShaftColumn))
+    parts = (part for column in shafts for part in column.parts)
+    read = {*_TORQUES}
+    return any(p.acts is EffectTarget.POSITION or read & p.equation.names for p in parts)
 
 
 _TORQUES = ("load", "static", "torque")
@@ -499,9 +493,7 @@ def format_argument_lines(function: CFunction) -> list[str]:
 
 
 _LENGTHS = {
-    name: macro
-    for macro, names in read_catalogue()["names"]["lengths"].items()
-    for name in names.split()
+    name: macro for macro, x in read_catalogue()["names"]["lengths"].items() for name in x.split()
 }
 """Macros of the lengths of arguments, after the robot's name."""
 
@@ -550,10 +542,8 @@ def format_prototype(name: str, parameters: Sequence[str], returns: str = "void"
 def format_signal_lines(spec: ModuleSpec) -> list[str]:
     """Returns comment lines that say what each entry of the input s is."""
     meaning = read_catalogue()["signals"]
-    return [
-        f"{k:4d}  {meaning[s.kind].format(joint=s.joint, value=s.value)} [{s.unit}]"
-        for k, s in enumerate(spec.signals)
-    ]
+    texts = ((s, meaning[s.kind].format(joint=s.joint, value=s.value)) for s in spec.signals)
+    return [f"{k:4d}  {text} [{s.unit}]" for k, (s, text) in enumerate(texts)]
 
 
 def format_body(function: CFunction, block: Block, target: Target) -> list[str]:

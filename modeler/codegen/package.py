@@ -318,14 +318,9 @@ def build_package_files(
     more |= {COUNT: count} if count is not None else {}
     more |= {VECTORS: {"largest": largest}} if values["many_states"] else {}
     programs = {f"{FOLDER}/{name}.c": texts for name, texts in more.items()}
-    values["files"] = {
-        *code,
-        *templates,
-        *programs,
-        "base_parameters.md",
-        MANIFEST,
-        *(("vectors.csv",) if values["many_states"] else ()),
-    }
+    measured = ("vectors.csv",) if values["many_states"] else ()
+    names = ("base_parameters.md", MANIFEST, *measured)
+    values["files"] = {*code, *templates, *programs, *names}
     files = {name: render(template, **values) for name, template in templates.items()}
     return files | {path: render(Path(path).name, **values, **x) for path, x in programs.items()}
 
@@ -339,10 +334,8 @@ def _describe_package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, An
     signature = spec.compute_signature() if spec.fitted is None else spec.fitted.signature
     if spec.control is not None:
         signature = digest_text(spec.to_json())
-    heads = [
-        f"{spec.prefix}{unit}.h"
-        for unit in ("", "_fitted", "_control", "_joints", "_batch", "_tile")
-    ]
+    units = ("", "_fitted", "_control", "_joints", "_batch", "_tile")
+    heads = [f"{spec.prefix}{unit}.h" for unit in units]
     public = [name for name in (*heads, "modeler_batch.h") if name in code]
     for name in public:  # grows while it is read
         included = re.findall(r'^#include "([^"]+)"', code[name], flags=re.MULTILINE)
@@ -362,10 +355,8 @@ def _describe_package(spec: ModuleSpec, code: Mapping[str, str]) -> dict[str, An
 def _sum_operations(functions: Sequence[Any], *names: str) -> dict[str, int]:
     """Returns the operations of the functions of these names together."""
     blocks = [f.block for f in functions if f.name in names]
-    return {
-        "additions": sum(block.additions for block in blocks),
-        "multiplications": sum(block.multiplications for block in blocks),
-    }
+    names = ("additions", "multiplications")
+    return {name: sum(getattr(block, name) for block in blocks) for name in names}
 
 
 # The example programs of a fitted module: which there are, and their calls as finished strings.

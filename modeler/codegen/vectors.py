@@ -249,11 +249,8 @@ def _evaluate_tables(
                 out = evaluate_outputs(tree, tree_inputs) if tree in roles else []
                 expected.setdefault(role, []).append(_project_output(c.kind, state, out))
     # Where a matrix is not positive definite, its functions have no number.
-    return inputs, {
-        role: rows
-        for role, rows in expected.items()
-        if len(rows) == (1 if role == "base_parameters" else states)
-    }
+    lengths = {role: 1 if role == "base_parameters" else states for role in expected}
+    return inputs, {role: rows for role, rows in expected.items() if len(rows) == lengths[role]}
 
 
 def _solve_composed(
@@ -383,10 +380,8 @@ def _sample_postures(
         random = np.random.default_rng(_SEED)
         near = draw_nearby_postures(closure, home, random, states, reach)
         with suppress(EnclosureError):
-            postures = [
-                _close_posture(closure, u, independent, [_round_fine(x) for x in u[independent]])
-                for u in near
-            ]
+            pairs = ((u, [_round_fine(x) for x in u[independent]]) for u in near)
+            postures = [_close_posture(closure, u, independent, values) for u, values in pairs]
             return [np.array([float(x) for x in enclosures.enclose_posture(u)]) for u in postures]
     raise EmitError(f"{model.robot.name}: the loops do not close beside home; state another home")
 

@@ -239,11 +239,8 @@ def build_ros2_files(emitted: EmittedModule, beta: Sequence[float], source: str)
     roles = {f.name.removeprefix(f"{spec.prefix}_"): f for f in spec.functions}
     status = roles["inverse_dynamics"].status
     calls: list[str] = []
-    for role, out, speed in (
-        ("inverse_dynamics", "tau", "qd"),
-        ("friction", "f", "qd"),
-        ("friction", "f_d", "wanted.qd"),
-    ):
+    called = (("inverse_dynamics", "tau", "qd"), ("friction", "f", "qd"))
+    for role, out, speed in (*called, ("friction", "f_d", "wanted.qd")):
         c_names = {"q": "q", "qd": speed, "qdd": "v", "beta": "beta"}
         words = [f"{c_names[argument.name]}.data()" for argument in roles[role].inputs]
         call = f"{roles[role].name}({', '.join(words)}, {out}.data())"
@@ -274,7 +271,5 @@ def build_ros2_files(emitted: EmittedModule, beta: Sequence[float], source: str)
         "kd": ", ".join([f"{2 * THRESHOLDS.controller_bandwidth:.1f}"] * len(names)),
         "sources": sorted(name for name in code if name.endswith(".c")),
     }
-    return {
-        **{f"{place}{name}": render(f"ros2/{name}", **values) for name, place in _PLACES.items()},
-        **{f"src/{name}": text for name, text in code.items()},
-    }
+    files = {f"{place}{name}": render(f"ros2/{name}", **values) for name, place in _PLACES.items()}
+    return files | {f"src/{name}": text for name, text in code.items()}

@@ -214,15 +214,10 @@ def _find_legs(linkage: Linkage) -> list[list[int]]:
     geometry, free = linkage.geometry, [joint.name for joint in linkage.free]
     names = [row.joint.name for row in geometry.rows]
     served: dict[tuple[str, ...], list[int]] = {}
-    chains = {
-        loop.name: {
-            names[i]
-            for frame in (loop.frame, loop.meets)
-            if frame != "0"
-            for i in geometry.find_ancestors(names.index(frame))
-        }
-        for loop in linkage.robot.loops
-    }
+    chains: dict[str, set[str]] = {}
+    for loop in linkage.robot.loops:
+        ends = [names.index(frame) for frame in (loop.frame, loop.meets) if frame != "0"]
+        chains[loop.name] = {names[i] for end in ends for i in geometry.find_ancestors(end)}
     for k, name in enumerate(free):
         served.setdefault(tuple(n for n, rows in chains.items() if name in rows), []).append(k)
     return list(served.values())
@@ -424,10 +419,8 @@ def _round_actuated_joints(linkage: Linkage, u: np.ndarray, places: np.ndarray) 
     unit = np.where(linkage.is_travel, 10.0 ** np.floor(np.log10(linkage.loops.size)), 1.0)
     for step in THRESHOLDS.rounding_steps:
         trial = u.copy()
-        trial[places] = [
-            float(f"{round(x / (step * one)) * step * one:.10g}")
-            for x, one in zip(u[places], unit[places], strict=True)
-        ]
+        pairs = zip(u[places], unit[places], strict=True)
+        trial[places] = [float(f"{round(x / (step * one)) * step * one:.10g}") for x, one in pairs]
         closed = linkage.loops.close_loops(trial[None])
         if np.all(np.isfinite(closed)) and linkage.loops.are_aligned(closed)[0]:
             near = np.max(linkage.compute_distances(closed, u)) < 5 * step

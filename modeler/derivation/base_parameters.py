@@ -193,11 +193,8 @@ def _find_block_relations(
                 for key, c in function(part.shaft).items() if part.shaft else ():
                     total[key] = total.get(key, 0) + sympy.QQ(c.numerator, c.denominator)
     relations = find_linear_relations(vectors)
-    return [
-        {place: Fraction(1), **{kept_place: -factor for kept_place, factor in combination.items()}}
-        for place, combination in relations.combinations.items()
-        if place not in relations.independent
-    ]
+    rows = ((k, c) for k, c in relations.combinations.items() if k not in relations.independent)
+    return [{k: Fraction(1), **{place: -x for place, x in c.items()}} for k, c in rows]
 
 
 # Which parameters are kept first when they group: the user's order, else the table's.
@@ -232,16 +229,11 @@ def derive_column_relations(
         rows = _derive_link_relations(geometry, K, units)
     rows += link_relations.derive_loop_relations(geometry, K, units.places)
     rows, auxiliary = units.merge_rows(rows)
-    rows += [
-        {place: K.one * sympy.QQ(c.numerator, c.denominator) for place, c in relation.items()}
-        for relation in find_friction_relations(model.columns)
-    ]
+    for relation in find_friction_relations(model.columns):
+        rows.append({k: K.one * sympy.QQ(c.numerator, c.denominator) for k, c in relation.items()})
     effective_columns = {place for _, place in model.regressor}
-    rows += [
-        {place: K.one}
-        for place, column in enumerate(model.columns)
-        if is_in_block(column, EnergyBlock.OWN) and place not in effective_columns
-    ]
+    own = (k for k, column in enumerate(model.columns) if is_in_block(column, EnergyBlock.OWN))
+    rows += [{place: K.one} for place in own if place not in effective_columns]
     reduced, pivots = reduce_sparse_rows(rows, [*auxiliary, *order[::-1]])
     first = sum(pivot >= len(model.columns) for pivot in pivots)
     reduced, dropped = reduced[first:], pivots[first:]

@@ -174,10 +174,8 @@ def compute_coriolis_matrix(
         parameters: per row, the inertial parameters that are not zero.
         zero: the algebra's zero.
     """
-    links = [
-        MovingComposite(p, zero, row.joint.name)
-        for p, row in zip(parameters, geometry.rows, strict=True)
-    ]
+    pairs = zip(parameters, geometry.rows, strict=True)
+    links = [MovingComposite(p, zero, row.joint.name) for p, row in pairs]
     at_rest = [zero] * 3
     arms: list[Vector] = []  # how fast p turns and grows
     for row, frame in zip(geometry.rows, frames, strict=True):
@@ -330,13 +328,10 @@ def _differentiate_twists(
     twist_changes: list[dict[int, Screw]] = []
     for k, row in enumerate(geometry.rows):
         before = {} if row.parent is None else twist_changes[row.parent]
-        carried = {
-            index: Screw(
-                frames[k].rotate_to_link(s.e),
-                frames[k].rotate_to_link(plus(s.m, cross(s.e, frames[k].p))),
-            )
-            for index, s in before.items()
-        }
+        carried = {}
+        for index, s in before.items():
+            e, pose = frames[k].rotate_to_link(s.e), frames[k]
+            carried[index] = Screw(e, pose.rotate_to_link(plus(s.m, cross(s.e, pose.p))))
         if row.index is not None:
             carried[row.index] = _differentiate_twist(row, moved[k])
         twist_changes.append(carried)

@@ -234,9 +234,9 @@ def compute_screws(
             for index, screw in row_screws[row.parent].items():
                 moved = plus(screw.m, cross(screw.e, frames[k].p))
                 link, of = row.joint.name, names[index]
+                e, m = frames[k].rotate_to_link(screw.e), frames[k].rotate_to_link(moved)
                 carried[index] = Screw(
-                    attach_labels("e", link, frames[k].rotate_to_link(screw.e), of=of),
-                    attach_labels("m", link, frames[k].rotate_to_link(moved), of=of),
+                    *(attach_labels(x, link, v, of=of) for x, v in (("e", e), ("m", m)))
                 )
         if row.index is not None:
             axis = [x * row.rate for x in build_unit_z(algebra)]

@@ -40,12 +40,8 @@ def _build_torque_function(
         T += 0.5 * (w.T @ J @ w + M * v.T @ v) + ca.dot(v, ca.cross(w, MS))
         U -= ca.dot(gravity, M * p + R @ MS)
     momentum = ca.gradient(T, qd)
-    tau = (
-        ca.jtimes(momentum, qd, qdd)
-        + ca.jtimes(momentum, q, qd)
-        - ca.gradient(T, q)
-        + ca.gradient(U, q)
-    )
+    tau = ca.jtimes(momentum, qd, qdd) + ca.jtimes(momentum, q, qd)
+    tau = tau - ca.gradient(T, q) + ca.gradient(U, q)
     return ca.Function("tau", [q, qd, qdd, chi], [tau])
 
 
@@ -56,10 +52,8 @@ def _evaluate_number(value: sympy.Expr, values: Mapping[str, float]) -> float:
 def _build_base_transforms(geometry: Geometry, q: ca.SX) -> list[ca.SX]:
     transforms: list[ca.SX] = []
     for row in geometry.rows:
-        entries = {
-            name: ca.SX(_evaluate_number(getattr(row, name), geometry.values))
-            for name in ("gamma", "b", "alpha", "d", "theta", "r")
-        }
+        cells = {name: getattr(row, name) for name in ("gamma", "b", "alpha", "d", "theta", "r")}
+        entries = {name: ca.SX(_evaluate_number(x, geometry.values)) for name, x in cells.items()}
         if row.index is not None:
             moving = "theta" if row.joint.is_revolute else "r"
             entries[moving] += row.rate * q[row.index]

@@ -275,10 +275,8 @@ class _TreeStep:
         null_basis = compute_null_space(rows, 12, K.zero, K.one)
         steady = [apply_matrix(self.motion[0][0], line[:10], K.zero) for line in null_basis]
         back = self.constant.invert_placement(K)
-        return LinkGrouping(
-            [[*move_parameters(back, line[:10], K), *line[10:]] for line in null_basis],
-            [move_parameters(self.fixed_part, line, K) for line in steady],
-        )
+        moved = [[*move_parameters(back, line[:10], K), *line[10:]] for line in null_basis]
+        return LinkGrouping(moved, [move_parameters(self.fixed_part, line, K) for line in steady])
 
     def derive_kernels(self) -> FrameKernels:
         """Derives the kernels of what vanishes identically of the link's own motion."""
@@ -435,10 +433,8 @@ class _ClosureProducts:
     def __init__(self, geometry: Geometry, columns: Sequence[StandardColumn]) -> None:
         self.columns, self.geometry = columns, geometry
         places = {joint.name: k for k, joint in enumerate(geometry.robot.joints)}
-        self.loops = [
-            _LoopPath(geometry, places.get(loop.frame), places.get(loop.meets), loop.kind)
-            for loop in geometry.robot.loops
-        ]
+        ends = ((places.get(x.frame), places.get(x.meets), x.kind) for x in geometry.robot.loops)
+        self.loops = [_LoopPath(geometry, *each) for each in ends]
 
     def find_distinct(self, K: ExactField, seed: int) -> list[int]:
         """Finds the numbers of the products that are not zero, nor equal to one before."""
@@ -477,11 +473,8 @@ class _LoopPath:
         in_common = [k for k in sides[0] if k in sides[1]]
         self.root = in_common[0] if in_common else None
         way = [k for side in sides for k in side if k not in in_common]
-        self.bodies = [
-            k
-            for k in dict.fromkeys([*in_common[:1], *way])
-            if geometry.rows[k].index is not None or k == self.root
-        ]
+        bodies = dict.fromkeys([*in_common[:1], *way])
+        self.bodies = [k for k in bodies if geometry.rows[k].index is not None or k == self.root]
 
     def compute_products(self, state: ModularState) -> list[Residues]:
         """Computes (2 points,) products that vanish by w and v of the bodies, and by gravity."""

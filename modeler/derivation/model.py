@@ -583,10 +583,8 @@ def _evaluate_on_shaft(
 ) -> Expr:
     """An equation on a shaft; `read` are the signals by variable."""
     graph, names = model.graph, equation.names
-    values: dict[str, Expr] = {
-        name: graph.constant(Fraction(repr(float(value))))
-        for name, value in nonlinear_parameters.items()
-    }
+    numbers = {name: Fraction(repr(float(value))) for name, value in nonlinear_parameters.items()}
+    values: dict[str, Expr] = {name: graph.constant(number) for name, number in numbers.items()}
     for name, kind in zip(MOTION, motion, strict=True):
         values[name] = combine_along_shaft(model, shaft, kind)
         for joint, form in zip(model.robot.moving_joints, model.geometry.forms, strict=True):

@@ -87,9 +87,9 @@ class ModularState:
         rng = np.random.default_rng(seed)
         self.geometry, self.points, self.prime = geometry, points, prime
         self.residues = {letter: int(draw_residues(rng, (1,), prime)[0]) for letter in K.letters}
+        residues = self.residues.items()
         self.letters = letters or {
-            letter: fill_residues(residue, points, prime)
-            for letter, residue in self.residues.items()
+            letter: fill_residues(x, points, prime) for letter, x in residues
         }
         self.value = cache(self._evaluate_constant)
         count = geometry.coordinate_count
@@ -492,10 +492,8 @@ def find_dependent_columns(
         moved = [probes.home, *points]
         # That of most letters first: if one is too large, it is.
         places.sort(key=lambda at: len(set(sampler.evaluate_coefficient(at, moved))), reverse=True)
-        coefficients = {
-            at: -interpolate_coefficient(partial(sampler.evaluate_coefficient, at), K, probes)
-            for at in places
-        }
+        parts = {at: partial(sampler.evaluate_coefficient, at) for at in places}
+        coefficients = {at: -interpolate_coefficient(part, K, probes) for at, part in parts.items()}
         return [
             {column: K.one} | {k: coefficients[column, k] for k in support if k in wanted}
             for column, support in supports.items()
@@ -512,10 +510,10 @@ def _find_supports(
     rows = functions(state, order)
     pivots = reduce_to_echelon(rows, range(len(order)), SMALL)
     pivot_rows = {column: row for row, column in pivots}
+    dependent = (column for column in range(len(order)) if column not in pivot_rows)
+    by_pivot = pivot_rows.items()
     return {
-        order[column]: [order[pivot] for pivot, row in pivot_rows.items() if rows[row, column] != 0]
-        for column in range(len(order))
-        if column not in pivot_rows
+        order[c]: [order[pivot] for pivot, row in by_pivot if rows[row, c] != 0] for c in dependent
     }
 
 

@@ -126,11 +126,8 @@ def evaluate_regressor(model: SymbolicModel, states: States) -> np.ndarray:
     """Returns (samples, coordinates, columns): the standard regressor at the nominal geometry."""
     q, qd, qdd = states
     values = dict(model.geometry.values)
-    inputs = {
-        f"{kind}[{i}]": array[:, i]
-        for kind, array in (("q", q), ("qd", qd), ("qdd", qdd))
-        for i in range(q.shape[1])
-    }
+    kinds = (("q", q), ("qd", qd), ("qdd", qdd))
+    inputs = {f"{kind}[{i}]": x[:, i] for kind, x in kinds for i in range(q.shape[1])}
     inputs |= {f"s[{k}]": values for k, values in enumerate(draw_signal_values(model, len(q)))}
     entries = model.regressor
     phi = np.zeros((*q.shape, len(model.columns)))
@@ -221,11 +218,8 @@ def derive_numeric_grouping(
     for column in sorted(relations):
         for b, factor in relations[column].items():
             terms[b].append(Term(factor, model.names[column]))
-    return (
-        build_named_parameters(model.columns, terms, model.robot.has_binary_fractions),
-        tuple(model.names[i] for i in sorted(absent)),
-        bound,
-    )
+    parameters = build_named_parameters(model.columns, terms, model.robot.has_binary_fractions)
+    return parameters, tuple(model.names[i] for i in sorted(absent)), bound
 
 
 def _select_first_columns(
@@ -248,11 +242,9 @@ def _select_first_columns(
         left = unit - (W[:, kept_columns] / lengths[kept_columns]) @ factors
         worst = max(worst, float(np.linalg.norm(left)))
         scaled = factors * lengths[column] / lengths[kept_columns]
-        relations[column] = {
-            b: _convert_number(float(s))
-            for b, s, f in zip(kept_columns, scaled, factors, strict=True)
-            if abs(f) > THRESHOLDS.zero_factor
-        }
+        clear = (np.abs(factors) > THRESHOLDS.zero_factor).tolist()
+        pairs = zip(kept_columns, scaled, clear, strict=True)
+        relations[column] = {b: _convert_number(float(s)) for b, s, is_clear in pairs if is_clear}
     return kept_columns, relations, worst
 
 
@@ -551,10 +543,8 @@ def enclose_factors(
         try:
             matrix = choice.enclose_matrix([*kept_columns, *dropped_columns])
             rows = load_flint().arb_mat(matrix).tolist()
-            scaled, right = (
-                [row[part] for row in rows]
-                for part in (slice(None, len(kept_columns)), slice(len(kept_columns), None))
-            )
+            n = len(kept_columns)
+            scaled, right = [row[:n] for row in rows], [row[n:] for row in rows]
             factors = load_flint().arb_mat(scaled).solve(load_flint().arb_mat(right)).tolist()
         except (EnclosureError, ZeroDivisionError):
             return None

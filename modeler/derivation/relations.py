@@ -539,10 +539,8 @@ def build_expression_formula(expression: sympy.Expr, halves: bool = False) -> Fo
     digits = format_exact_decimal(abs(expression), halves) if expression.is_Rational else None
     top, bottom = _separate_fraction(expression, halves)
     if digits is None and bottom != 1:
-        return Formula(
-            "fraction",
-            parts=(build_expression_formula(top, halves), build_expression_formula(bottom, halves)),
-        )
+        above, below = (build_expression_formula(x, halves) for x in (top, bottom))
+        return Formula("fraction", parts=(above, below))
     if expression.is_Number:
         sign = "-" if expression.is_negative else ""
         text = f"{sign}{digits}" if digits else _TextPrinter(halves).doprint(expression)
@@ -552,10 +550,8 @@ def build_expression_formula(expression: sympy.Expr, halves: bool = False) -> Fo
     if expression.is_Mul:
         sign, size = separate_sign(expression)
         factors = size.as_ordered_factors() if size.is_Mul else [size]
-        return make_row(
-            *([make_operator("-")] if sign else []),
-            *(_build_fenced_sum(factor, halves) for factor in factors),
-        )
+        fenced = (_build_fenced_sum(factor, halves) for factor in factors)
+        return make_row(*([make_operator("-")] if sign else []), *fenced)
     if expression.is_Pow:
         base, exponent = expression.args
         below = build_expression_formula(base, halves)

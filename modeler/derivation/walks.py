@@ -121,10 +121,8 @@ class _Walkers:
         share = np.minimum(1.0, THRESHOLDS.max_walk_step / np.maximum(fastest, 1e-300))[:, None]
         step = np.zeros_like(self.u)
         step[:, self.actuated] = dq * share
-        step[:, self.solved] = (
-            np.clip(back[:, :, 0], -THRESHOLDS.max_walk_step, THRESHOLDS.max_walk_step)
-            + back[:, :, 1] * share
-        )
+        most = THRESHOLDS.max_walk_step
+        step[:, self.solved] = np.clip(back[:, :, 0], -most, most) + back[:, :, 1] * share
         return step * self.scale
 
 

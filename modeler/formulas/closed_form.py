@@ -90,11 +90,9 @@ def derive_energy_dynamics(
                 factor = ring.static(sympy.Rational(value.numerator, value.denominator))
                 _add_entry(inertia, (i, j), place, factor)
     down = [normalise_vector(v, ring) for v in compute_frame_gravity(model.geometry, frames, ring)]
-    return EnergyDynamics(
-        _drop_zeros(inertia),
-        _drop_zeros(_derive_christoffel(inertia, model.geometry.coordinate_count, ring)),
-        _drop_zeros(_derive_gravity(carried, down, wanted, ring)),
-    )
+    christoffel = _derive_christoffel(inertia, model.geometry.coordinate_count, ring)
+    gravity = _derive_gravity(carried, down, wanted, ring)
+    return EnergyDynamics(*(_drop_zeros(x) for x in (inertia, christoffel, gravity)))
 
 
 def compute_normal_screws(

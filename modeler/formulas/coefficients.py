@@ -209,10 +209,8 @@ def _find_known_geometry(
 ) -> tuple[str, ...]:
     names = [str(symbol) for symbol in algebra.static_ring.symbols]
     prime, point = draw_random_point(names, random.Random(THRESHOLDS.seed))
-    vectors = [
-        {column: evaluate_modulo(factor, point, prime) for column, factor in c.standard.items()}
-        for c in coefficients
-    ]
+    forms = [c.standard.items() for c in coefficients]
+    vectors = [{k: evaluate_modulo(factor, point, prime) for k, factor in form} for form in forms]
     return tuple(coefficients[k].name for k in find_independent_modulo(vectors, prime))
 
 
@@ -278,9 +276,9 @@ def _format_terms(
     return [
         (
             format_linear_form(form, closed.parameters, static, style),
-            format_monomial(at, motion, style),
+            format_monomial(x, motion, style),
         )
-        for at, form in function.terms.items()
+        for x, form in function.terms.items()
     ]
 
 

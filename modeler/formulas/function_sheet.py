@@ -531,13 +531,8 @@ def _format_sections(sheet: Sheet) -> list[tuple[str, list[str]]]:
         line = f"{definition.name} = {printer.format_value(definition)}"
         if len(line) > _WIDTH:
             right = f"{definition.name} = ({printer.format_value(definition)})"
-            more = textwrap.wrap(
-                right,
-                _WIDTH,
-                subsequent_indent="    ",
-                break_on_hyphens=False,
-                break_long_words=False,
-            )
+            options: Any = {"break_on_hyphens": False, "break_long_words": False}
+            more = textwrap.wrap(right, _WIDTH, subsequent_indent="    ", **options)
             sections[-1][1].extend(more)
         else:
             sections[-1][1].append(line)
@@ -557,10 +552,9 @@ def _collect_trig(printer: SheetPrinter) -> list[tuple[str, str, str]]:
 
 def _format_latex(sheet: Sheet, heading: Callable[[str], str]) -> str:
     printer = SheetPrinter(sheet, LATEX)
-    angles = [
-        DisplayedEquation(printer.format_trig(name), (f"\\{function}({angle})",))
-        for name, function, angle in _collect_trig(printer)
-    ]
+    angles = []
+    for name, function, angle in _collect_trig(printer):
+        angles.append(DisplayedEquation(printer.format_trig(name), (f"\\{function}({angle})",)))
     blocks = {"sines and cosines": angles}
     for definition in sheet.definitions:
         values = (printer.format_value(definition),)

@@ -68,11 +68,8 @@ def parse_known_values(text: str, system: PhysicalSystem, where: str = "--known"
             if spread:
                 sigmas[name] = _parse_sigma(sigma, f"{where}, {name}")
     effective = tuple(name for name in names if name in system.letters)
-    return KnownValues(
-        effective,
-        {name: values[name] for name in effective if name in values},
-        {name: sigmas[name] for name in effective if name in sigmas},
-    )
+    known = {name: values[name] for name in effective if name in values}
+    return KnownValues(effective, known, {n: sigmas[n] for n in effective if n in sigmas})
 
 
 def check_symbol(name: str, system: PhysicalSystem, where: str) -> None:
@@ -169,11 +166,9 @@ def _select_effective(
             f"{where}: no value of a parameter with an effect on the torques; expected some of "
             f"{', '.join(system.letters)}"
         )
-    return KnownValues(
-        tuple(effective_names),
-        {name: values[name] for name in effective_names},
-        {name: sigmas[name] for name in effective_names if sigmas.get(name, 0.0) > 0.0},
-    )
+    known = {name: values[name] for name in effective_names}
+    sure = {name: sigmas[name] for name in effective_names if sigmas.get(name, 0.0) > 0.0}
+    return KnownValues(tuple(effective_names), known, sure)
 
 
 # Which sufficing set of known parameters lets errors grow least.

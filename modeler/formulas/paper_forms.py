@@ -264,11 +264,8 @@ def _convert_to_fractions(
     functions, *letters = field([f"x{n}" for n in atoms], QQ)
     values: dict[int, Any] = {0: functions(0), **dict(zip(atoms, letters, strict=True))}
     place = {(graph.nodes[n].op, graph.nodes[n].args): k for k, n in enumerate(atoms)}
-    squares = {
-        k: 1 - functions.ring.gens[place["cos", args]] ** 2
-        for (op, args), k in place.items()
-        if op == "sin" and ("cos", args) in place
-    }
+    cosines = {k: place.get(("cos", args)) for (op, args), k in place.items() if op == "sin"}
+    squares = {k: 1 - functions.ring.gens[c] ** 2 for k, c in cosines.items() if c is not None}
     for n in reached:
         op, args = graph.nodes[n].op, graph.nodes[n].args
         if op == "num":
@@ -548,9 +545,9 @@ def _build_bodies(model: SymbolicModel) -> dict[int, _Body]:
         link = get_physical_link(model, rows[k].joint)
         m, c = read_entry(link.mass), [read_entry(x) for x in link.centre]
         XX, XY, XZ, YY, YZ, ZZ = (read_entry(x) for x in link.inertia)
+        moved = (way[k] for way in ways)
         pairs = [
-            (_add_components(V, _express_in_row(k, cross(w, c))), turn)
-            for V, turn, w in (way[k] for way in ways)
+            (_add_components(V, _express_in_row(k, cross(w, c))), turn) for V, turn, w in moved
         ]
         spin = [dot(line, ways[0][k][2]) for line in ([XX, XY, XZ], [XY, YY, YZ], [XZ, YZ, ZZ])]
         letters = {triads[k, i][1].split("_")[0] for i in range(3)}

@@ -85,11 +85,8 @@ def derive_physical_parameters(model: SymbolicModel, algebra: TrigRing) -> Physi
     """
     static = [str(symbol) for symbol in algebra.static_ring.symbols]
     bodies = {column.row for column in model.columns if isinstance(column, LinkColumn)}
-    links = {
-        joint.name: get_physical_link(model, joint)
-        for row, joint in enumerate(model.robot.joints)
-        if row in bodies
-    }
+    joints = (joint for row, joint in enumerate(model.robot.joints) if row in bodies)
+    links = {joint.name: get_physical_link(model, joint) for joint in joints}
     rotors = [c.name for c in model.columns if is_in_block(c, EnergyBlock.KINETIC)]
     zeros = {name for name, value in model.robot.evaluate_symbols().items() if value == 0.0}
     groups = [g for x in links.values() for g in ((x.mass,), x.centre, x.inertia)]
@@ -126,11 +123,10 @@ def derive_physical_parameters(model: SymbolicModel, algebra: TrigRing) -> Physi
     moments = tuple(name for name in letters if name in alone)
     lengths = _find_lengths(algebra)
     kinds: dict[str, str] = {}  # one that is several is what is measured with more trouble
-    for kind, entries in (
-        ("mass", [x.mass for x in links.values()]),
-        ("centre", [entry for x in links.values() for entry in x.centre]),
-        ("inertia", [entry for x in links.values() for entry in x.inertia]),
-    ):
+    centres = [entry for x in links.values() for entry in x.centre]
+    inertias = [entry for x in links.values() for entry in x.inertia]
+    masses_of = [x.mass for x in links.values()]
+    for kind, entries in (("mass", masses_of), ("centre", centres), ("inertia", inertias)):
         kinds |= {name: kind for entry in entries for name in entry.names}
     kinds |= dict.fromkeys(rotors, "rotor inertia") | dict.fromkeys(lengths, "length")
     return PhysicalParameters(
@@ -236,15 +232,9 @@ def analyse_identifiability(
     appearing = tuple(letter for letter, column in slopes.items() if any(column))
     chance = random.Random(seed)
     ranks = [_compute_rank([slopes[x] for x in appearing], physical, chance) for _ in range(points)]
-    return Identifiability(
-        physical.letters,
-        appearing,
-        tuple(letter for letter in physical.letters if letter not in appearing),
-        _find_sums({letter: slopes[letter] for letter in appearing}),
-        max(ranks),
-        points,
-        seed,
-    )
+    vanishing = tuple(letter for letter in physical.letters if letter not in appearing)
+    sums = _find_sums({letter: slopes[letter] for letter in appearing})
+    return Identifiability(physical.letters, appearing, vanishing, sums, max(ranks), points, seed)
 
 
 def _find_sums(slopes: Mapping[str, tuple[Poly, ...]]) -> tuple[dict[str, int], ...]:
@@ -267,10 +257,9 @@ def _compute_rank(
     columns: Sequence[Sequence[Poly]], physical: PhysicalParameters, chance: random.Random
 ) -> int:
     prime, point = draw_random_point(physical.names, chance)
-    vectors = [
-        {i: evaluate_modulo(poly, point, prime) for i, poly in enumerate(column) if poly}
-        for column in columns
-    ]
+    vectors = []
+    for column in columns:
+        vectors.append({i: evaluate_modulo(p, point, prime) for i, p in enumerate(column) if p})
     return len(find_independent_modulo(vectors, prime))
 
 

@@ -101,10 +101,11 @@ class PhysicalSystem(ShortRepr):
     def slopes(self) -> Mapping[str, tuple[Poly, ...]]:
         """Returns {letter: d data / d letter}."""
         gens = self.ring.gens
-        return {
-            letter: tuple(self.definitions[d].diff(gens[self.place[letter]]) for d in self.data)
-            for letter in self.letters
-        }
+        slopes = {}
+        for letter in self.letters:
+            generator = gens[self.place[letter]]
+            slopes[letter] = tuple(self.definitions[d].diff(generator) for d in self.data)
+        return slopes
 
     def build_point(self, values: Mapping[str, float]) -> np.ndarray:
         """Returns (generators,) the constants and these values, 0 for all others."""
@@ -179,11 +180,8 @@ def build_physical_system(
             f"{model.robot.name}: coefficients are written for serial and tree robots; leave out "
             "--from, or write --from base"
         )
-    if (
-        source == "base"
-        or tied
-        or (source is None and len(model.robot.coordinates) > THRESHOLDS.closed_form_joints)
-    ):
+    many = len(model.robot.coordinates) > THRESHOLDS.closed_form_joints
+    if source == "base" or tied or (source is None and many):
         return _build_from_base(model, base)
     try:
         table = build_coefficient_table(model, base)
@@ -310,10 +308,9 @@ def _build_from_base(model: SymbolicModel, base: BaseParameters) -> PhysicalSyst
         if [str(physical.standard.get(place)) for place in places] == [parameter.name]:
             alone.append(parameter.name)
         elif all(place in physical.standard for place in places):
-            parts[parameter.name] = [
-                (*geometry.convert_coefficient(term.coefficient), physical.standard[place])
-                for term, place in zip(parameter.terms, places, strict=True)
-            ]
+            numbers = [geometry.convert_coefficient(term.coefficient) for term in parameter.terms]
+            pairs = zip(numbers, places, strict=True)
+            parts[parameter.name] = [(*number, physical.standard[k]) for number, k in pairs]
     ring = PolyRing([*physical.names, *geometry.quotients], QQ, lex)
     gens = get_generators(ring)
     definitions = {}

@@ -123,10 +123,8 @@ def find_wrong_functions(table: CoefficientTable) -> list[FunctionCheck]:
     for name, printed in table.printed.functions.items():
         joints = _find_joints(table, name)
         difference = _subtract_printed(table, name, printed)
-        texts = {
-            format_monomial(at, motion): _express_in_coefficients(table, vector)
-            for at, vector in sorted(difference.items(), reverse=True)
-        }
+        items = sorted(difference.items(), reverse=True)
+        texts = {format_monomial(at, motion): _express_in_coefficients(table, x) for at, x in items}
         if difference:
             power = _compute_power_defect(table, joints, difference)
             checks.append(FunctionCheck(name, printed.text, texts, power))
@@ -299,11 +297,9 @@ def check_twin(table: CoefficientTable) -> TwinCheck:
     first, second = get_example_values(table), get_example_values(table, twin=True)
     names, zero = table.physical.names, Fraction(0)
     points = [[values.get(name, zero) for name in names] for values in (first, second)]
-    different = tuple(
-        c.name
-        for c in table.coefficients
-        if evaluate_polynomial(c.physical, points[0]) != evaluate_polynomial(c.physical, points[1])
-    )
+    values = ([evaluate_polynomial(c.physical, x) for x in points[:2]] for c in table.coefficients)
+    pairs = zip(table.coefficients, values, strict=True)
+    different = tuple(c.name for c, (first, second) in pairs if first != second)
     changed = tuple(name for name in second if second[name] != first.get(name))
     return TwinCheck(len(table.coefficients) - len(different), different, changed)
 

@@ -303,10 +303,9 @@ def derive_equation(
             "in J; what is not listed is 0"
         )
         kinds = {column.name: column.kind for column in base.columns}
+        both = {"inertial", "offset"}
         mixed = [
-            p.name
-            for p in base.parameters
-            if {kinds[term.parameter] for term in p.terms} >= {"inertial", "offset"}
+            p.name for p in base.parameters if {kinds[term.parameter] for term in p.terms} >= both
         ]
         if mixed:
             words.append(f"constant gravity and an offset in one, in e or in g: {', '.join(mixed)}")
@@ -333,11 +332,9 @@ def _describe_laws(model: SymbolicModel) -> list[str]:
     """What the functions are that no formula says."""
     parts = (p for c in model.columns if isinstance(c, ShaftColumn) for p in c.parts)
     effects = {part.equation.law: part.effect for part in parts}
-    descriptions = [
-        f"{name} is the law of [own_effects.{effects[table.law]}], held beyond its ends"
-        for name, table in model.graph.tables.items()
-        if table.along is None
-    ]
+    tables = (item for item in model.graph.tables.items() if item[1].along is None)
+    text = "{} is the law of [own_effects.{}], held beyond its ends"
+    descriptions = [text.format(name, effects[table.law]) for name, table in tables]
     return ["; ".join(descriptions)] if descriptions else []
 
 

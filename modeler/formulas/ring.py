@@ -192,16 +192,13 @@ class TrigRing:
         self.static_ring = PolyRing(static, QQ, lex)
         self._place = {atom: self.moving + i for i, atom in enumerate(atoms)}
         turning = {m.sine: m.cosine for m in self.motions if m.sine is not None}
-        turning |= {
-            self._place[atom]: self._place[sympy.cos(atom.args[0])]
-            for atom in atoms
-            if isinstance(atom, sympy.sin)
-        }
-        self.squares = {s: 1 - self.ring.gens[c] ** 2 for s, c in turning.items()} | {
-            place: self.ring(QQ(int(atom.base.p), int(atom.base.q)))
-            for atom, place in self._place.items()
-            if atom.is_Pow
-        }
+        for atom in atoms:
+            if isinstance(atom, sympy.sin):
+                turning[self._place[atom]] = self._place[sympy.cos(atom.args[0])]
+        self.squares = {s: 1 - self.ring.gens[c] ** 2 for s, c in turning.items()}
+        for atom, place in self._place.items():
+            if atom.is_Pow:
+                self.squares[place] = self.ring(QQ(int(atom.base.p), int(atom.base.q)))
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -442,10 +439,8 @@ def invert_base_map(base_map: BaseMap, ring: Any) -> Mapping[str, Mapping[str, A
         return None
     matrix = _build_domain_matrix(base_map.entries, len(base_map.rows), ring)
     inverse = matrix.to_field().inv().to_dod()
-    return {
-        name: {base_map.rows[c]: value for c, value in sorted(inverse.get(r, {}).items())}
-        for r, name in enumerate(base_map.columns)
-    }
+    rows = ((n, sorted(inverse.get(r, {}).items())) for r, n in enumerate(base_map.columns))
+    return {name: {base_map.rows[c]: value for c, value in row} for name, row in rows}
 
 
 def _build_domain_matrix(

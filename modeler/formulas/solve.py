@@ -117,15 +117,10 @@ def solve(
     unknown = [x for x in system.letters if x not in known_letters]
     steps = _Elimination(system, unknown, follow, random.Random(seed)).run()
     have = {step.letter for step in steps}
-    return ClosedSolution(
-        system,
-        known_letters,
-        tuple(steps),
-        tuple(x for x in unknown if x not in follow),
-        tuple(x for x in follow if x not in have),
-        len(unknown) - rank,
-        len(system.data) - rank,
-    )
+    free, surplus = len(unknown) - rank, len(system.data) - rank
+    undetermined = tuple(x for x in unknown if x not in follow)
+    without = tuple(x for x in follow if x not in have)
+    return ClosedSolution(system, known_letters, tuple(steps), undetermined, without, free, surplus)
 
 
 class _Elimination:
@@ -432,10 +427,9 @@ def _extract_symbols(text: str, functions: bool = False) -> list[str]:
 
 def format_definition_lines(system: PhysicalSystem) -> list[str]:
     """Returns the data as polynomials of the parameters, one a line."""
-    return [
-        f"{name} = {format_physical(poly, system.names, system.masses)}"
-        for name, poly in system.definitions.items()
-    ]
+    names, masses = system.names, system.masses
+    items = system.definitions.items()
+    return [f"{name} = {format_physical(poly, names, masses)}" for name, poly in items]
 
 
 def format_missing_lines(solution: ClosedSolution) -> list[str]:

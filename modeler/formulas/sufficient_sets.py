@@ -272,12 +272,8 @@ class _SetCounter:
 
     def _estimate_work(self, part: tuple[list[int], list[int]], spare: int) -> float:
         rows, columns = part
-        return float(
-            sum(
-                comb(len(columns), len(rows) + more)
-                for more in range(min(spare, len(columns) - len(rows)) + 1)
-            )
-        )
+        most = min(spare, len(columns) - len(rows)) + 1
+        return float(sum(comb(len(columns), len(rows) + more) for more in range(most)))
 
     def _count_part(
         self, part: tuple[list[int], list[int]], spare: int, start: float, share: float

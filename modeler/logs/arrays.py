@@ -156,11 +156,9 @@ def _select_group(
     topic = wanted.topic.strip("/")
     if not topic:
         return list(arrays)
-    members = [
-        NamedArray(a.name[len(topic) + 1 :], a.data, a.unit, a.flipped)
-        for a in arrays
-        if a.name.startswith((f"{topic}.", f"{topic}/"))
-    ]
+    heads = (f"{topic}.", f"{topic}/")
+    members = [a for a in arrays if a.name.startswith(heads)]
+    members = [NamedArray(a.name[len(topic) + 1 :], a.data, a.unit, a.flipped) for a in members]
     if not members:
         groups = sorted({a.name[:i] for a in arrays for i, c in enumerate(a.name) if c in "./"})
         raise DataError(
@@ -284,11 +282,8 @@ def _describe_array(held: NamedArray) -> str:
 
 
 def _join_names(names: Sequence[str]) -> str:
-    more = (
-        f" and {len(names) - THRESHOLDS.max_listed_names} more"
-        if len(names) > THRESHOLDS.max_listed_names
-        else ""
-    )
+    rest = len(names) - THRESHOLDS.max_listed_names
+    more = f" and {rest} more" if rest > 0 else ""
     return ", ".join(names[: THRESHOLDS.max_listed_names]) + more
 
 

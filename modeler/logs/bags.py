@@ -341,10 +341,8 @@ def _read_stamp(message: Any) -> int:
 def _read_nanoseconds(time: Any) -> int:
     """Of a time of ROS; 0 without one."""
     fields = _get_fields(time)
-    of = [
-        next((fields[n] for n in field_names if n in fields), 0)
-        for field_names in (("sec", "secs"), ("nanosec", "nsec", "nsecs"))
-    ]
+    names = (("sec", "secs"), ("nanosec", "nsec", "nsecs"))
+    of = [next((fields[n] for n in each if n in fields), 0) for each in names]
     return int(of[0]) * 1_000_000_000 + int(of[1])
 
 

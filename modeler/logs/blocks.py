@@ -154,12 +154,8 @@ def _build_parquet_columns(
     counted_from = {n: first for n, first in origins.items() if n != "index" or is_beyond(first)}
     columns = build_arrow_columns(datasets.flatten_table(table, dataset), before, counted_from)
     rate = None if dataset is None else dataset.fps
-    return select_columns(
-        dataclasses.replace(
-            columns, reading_notes=(*clock_notes, *columns.reading_notes), rate=rate
-        ),
-        names,
-    )
+    notes = (*clock_notes, *columns.reading_notes)
+    return select_columns(dataclasses.replace(columns, reading_notes=notes, rate=rate), names)
 
 
 def open_parquet(path: Path, **how: Any) -> pa.parquet.ParquetFile:
@@ -281,10 +277,8 @@ def build_arrow_columns(
         origins: what columns of times are counted from.
     """
     table, by_names = datasets.rename_by_joint_names(table)
-    named = [
-        (strip_quotes(name), _ArrowColumn(table.column(i), before, origins.get(name)))
-        for i, name in enumerate(table.column_names)
-    ]
+    pairs = zip(table.column_names, table.columns, strict=True)
+    named = [(strip_quotes(n), _ArrowColumn(x, before, origins.get(n))) for n, x in pairs]
     columns, units, stamp_notes = join_stamps(named)
     units = {**find_stated_units(table, origins), **units}
     return Columns(columns, table.num_rows, units, reading_notes=(*by_names, *stamp_notes))
@@ -482,14 +476,15 @@ def open_blocks(path: Path) -> Blocks | None:
 def read_windows(blocks: Blocks, count: int, size: int) -> Columns:
     """Reads windows spread over a file, one after the other; columns of numbers in all of them."""
     windows = [dict(blocks.read_window((k + 0.5) / count, size).columns) for k in range(count)]
-    values = tuple(
-        (name, ColumnValues(np.concatenate([window[name].read_numbers() for window in windows])))
-        for name in windows[0]
-        if all(window[name].is_numeric for window in windows)
-    )
+    values = []
+    for name in windows[0]:
+        if all(window[name].is_numeric for window in windows):
+            numbers = np.concatenate([window[name].read_numbers() for window in windows])
+            values.append((name, ColumnValues(numbers)))
     rows = len(values[0][1].values) if values else 0
     first = blocks.read_window(0.0, 1)
-    return Columns(values, rows, first.units, reading_notes=first.reading_notes, rate=first.rate)
+    notes, rate = first.reading_notes, first.rate
+    return Columns(tuple(values), rows, first.units, reading_notes=notes, rate=rate)
 
 
 # Spreadsheets (.xlsx and what else calamine reads), by the rules of text files.

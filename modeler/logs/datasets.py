@@ -171,9 +171,9 @@ def rename_by_joint_names(table: pa.Table) -> tuple[pa.Table, tuple[str, ...]]:
         for other in others:
             values = [table.column(name) for name in families[other].values()]
             for name, joint in zip(families[other].values(), joints, strict=True):
+                pairs = zip(texts, values, strict=True)
                 candidates = [
-                    pc.if_else(pc.equal(text, joint), value, None)
-                    for text, value in zip(texts, values, strict=True)
+                    pc.if_else(pc.equal(text, joint), value, None) for text, value in pairs
                 ]
                 head = other.partition("{}")[0].removesuffix("[")
                 at = table.column_names.index(name)

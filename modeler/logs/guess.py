@@ -144,9 +144,9 @@ def guess_columns(
     order = ("time", "q", "qd", "qdd", "qc", "tau", "current", "duty", "voltage", "temperature")
     known = [guesses[quantity] for quantity in order if quantity in guesses]
     rates = _compute_rates(guesses, columns, stated)
+    slides = (flag_prismatic_columns(one.labels, joints, names) for one in known)
     return [
-        _add_units(one, columns, stated, flag_prismatic_columns(one.labels, joints, names), rates)
-        for one in known
+        _add_units(one, columns, stated, x, rates) for one, x in zip(known, slides, strict=True)
     ]
 
 
@@ -326,14 +326,11 @@ def _add_units(
     pairs = zip(known, slides, strict=True)
     units = [_guess_unit_by_range(one.quantity, v, slide) for v, slide in pairs]
     if one.quantity == "q":
-        units = [
-            _choose_unit_by_rate(rates.get(name), unit, v)
-            for name, unit, v in zip(one.columns, units, known, strict=True)
-        ]
-    free = [
-        one.quantity not in ("q", "qc") or not (slide or _is_settled(rates.get(name)))
-        for name, slide in zip(one.columns, slides, strict=True)
-    ]
+        triples = zip(one.columns, units, known, strict=True)
+        units = [_choose_unit_by_rate(rates.get(name), unit, v) for name, unit, v in triples]
+    pairs = zip(one.columns, slides, strict=True)
+    is_position = one.quantity in ("q", "qc")
+    free = [not (is_position and (slide or _is_settled(rates.get(name)))) for name, slide in pairs]
     units = _unify_units(units, free, slides)
     return dataclasses.replace(one, units=tuple(units), why="by its range" if any(units) else "")
 
@@ -473,10 +470,8 @@ def format_log_table(
         lines += _format_lines(one, joint_names, is_named, names)
     if find_absent_roles(guesses):
         there = {one.quantity for one in guesses}
-        lines.append(
-            "# columns of the file: "
-            + ", ".join(map(_quote_text, columns[: THRESHOLDS.max_listed_columns]))
-        )
+        listed = map(_quote_text, columns[: THRESHOLDS.max_listed_columns])
+        lines.append(f"# columns of the file: {', '.join(listed)}")
         if "q" not in there:
             lines.append('# "q<j>" = "?"  # the position of each joint, such as "COLUMN{n} [deg]"')
         if not there & {"tau", "current", "duty"}:

@@ -243,11 +243,8 @@ def inspect_table(
     rest = {speed for position, speed in pairs if not is_moving(values[position])}
     doubts += check_rates(pairs, values, time)
     doubts += _find_repeats(guesses, values, rows, clock, table.format_name)
-    still = [
-        channel.name
-        for channel, name in zip(channels, shown, strict=True)
-        if channel.is_constant and not (name in rest and channel.low == 0.0)
-    ]
+    constant = ((c, name) for c, name in zip(channels, shown, strict=True) if c.is_constant)
+    still = [c.name for c, name in constant if not (name in rest and c.low == 0.0)]
     if still:
         verb = "never changes: is it" if len(still) == 1 else "never change: are they"
         doubts.append(f"{', '.join(still)} {verb} connected?")
@@ -413,11 +410,8 @@ def _scan_rows(
 
 def _find_extremes(time: np.ndarray, steps: np.ndarray, values: Mapping[str, np.ndarray]) -> Drawn:
     """The rows at which time and channels are least and largest, and such steps."""
-    ends = [
-        [find(x) for find in (np.nanargmin, np.nanargmax)]
-        for x in (time, steps[1], *values.values())
-        if np.isfinite(x).any()
-    ]
+    series = [x for x in (time, steps[1], *values.values()) if np.isfinite(x).any()]
+    ends = [[np.nanargmin(x), np.nanargmax(x)] for x in series]
     rows = np.unique([ends[0], *ends[2:]])
     return time[rows], steps[:, ends[1]], {name: x[rows] for name, x in values.items()}
 

@@ -81,11 +81,8 @@ class LogTable:
         self.names: tuple[str, ...] = (*self._taken, *(["time"] if self._rate else []), *others)
         self._units = {name: self._find_unit(name) for name in self.names}
         self.notes: tuple[str, ...] = (*self.file_columns.notes, *self._collect_notes())
-        self.reading_notes: tuple[str, ...] = (
-            *self.file_columns.reading_notes,
-            *mapping.guess_notes,
-            *self._describe_stated_units(),
-        )
+        notes = (*self.file_columns.reading_notes, *mapping.guess_notes)
+        self.reading_notes: tuple[str, ...] = (*notes, *self._describe_stated_units())
 
     def _check(self) -> None:
         names = [name for name, _ in self.file_columns.columns]
@@ -153,10 +150,8 @@ class LogTable:
         units = self.file_columns.units.items()
         unknown = [n for n, t in units if n in self._columns and not find_unit(t)]
         if unknown:
-            named = ", ".join(
-                f'{name} "{self.file_columns.units[name]}"'
-                for name in unknown[: THRESHOLDS.max_listed_units]
-            )
+            texts, listed = self.file_columns.units, unknown[: THRESHOLDS.max_listed_units]
+            named = ", ".join(f'{name} "{texts[name]}"' for name in listed)
             lines.append(f"the file states units that are not understood, taken as SI: {named}")
         return lines
 

@@ -65,11 +65,8 @@ class Unit:
         """Returns what it measures, in words."""
         if self.powers in _KINDS:
             return _KINDS[self.powers]
-        return "a " + " ".join(
-            name if power == 1 else f"{name}^{power}"
-            for name, power in zip(("m", "kg", "s", "rad", "A", "K"), self.powers, strict=True)
-            if power
-        )
+        letters = zip(("m", "kg", "s", "rad", "A", "K"), self.powers, strict=True)
+        return "a " + " ".join(x if power == 1 else f"{x}^{power}" for x, power in letters if power)
 
     def convert_to_quantity(self, powers: Powers) -> "Unit | None":
         """Returns the unit as one of that quantity; None if it measures something else.
@@ -175,11 +172,8 @@ def _find_expected(our_name: str, joints: Sequence[JointSpec]) -> tuple[Powers |
     if our_name.startswith("temperature"):
         return HEAT, "a temperature", "degC, K, degF"
     for joint in joints:
-        of_joint = {
-            name: row
-            for key in ("drive", joint.effort_unit, joint.unit)
-            for name, row in _UNITS["columns"][key].items()
-        }
+        columns, kinds = _UNITS["columns"], ("drive", joint.effort_unit, joint.unit)
+        of_joint = {name: row for key in kinds for name, row in columns[key].items()}
         for prefix, (powers, what, example) in of_joint.items():
             if our_name == f"{prefix}{joint.name}":
                 what = f"{what} of joint {joint.name}, which is {joint.kind}"
@@ -239,12 +233,8 @@ class MappedColumn:
         if (self.sign, self.scale, self.offset) == (1.0, 1.0, 0.0):
             plain_name = self.unit is None or len(self.columns) > 1  # its name ends in its unit
             return column if plain_name else f"{column} [{self.unit.text}]"  # type: ignore[union-attr]
-        said = {
-            "unit": self.unit and self.unit.text,
-            "sign": int(self.sign),
-            "scale": self.scale,
-            "offset": self.offset,
-        }
+        said: dict[str, Any] = {"unit": self.unit and self.unit.text, "sign": int(self.sign)}
+        said |= {"scale": self.scale, "offset": self.offset}
         plain = {"unit": None, "sign": 1, "scale": 1.0, "offset": 0.0}
         return {"column": column} | {k: v for k, v in said.items() if v != plain[k]}
 

@@ -101,11 +101,9 @@ def infer_units(ratio: float) -> tuple[str, str] | None:
         return None
     if abs(abs(ratio) - 1.0) < THRESHOLDS.max_ratio_deviation:
         return "", ""
-    tried = [
-        (abs(abs(ratio) * RATES[b] / RATES[a] - 1.0), a.removesuffix("/s"), b)
-        for a, b in permutations(RATES, 2)
-        if a != "rpm"
-    ]
+    pairs = [(a, b) for a, b in permutations(RATES, 2) if a != "rpm"]
+    offs = ((abs(abs(ratio) * RATES[b] / RATES[a] - 1.0), a, b) for a, b in pairs)
+    tried = [(off, a.removesuffix("/s"), b) for off, a, b in offs]
     off, first, second = min(tried)
     return (first, second) if off < THRESHOLDS.max_ratio_deviation else None
 
@@ -141,10 +139,8 @@ def find_common_factor(ratios: Sequence[float]) -> float | None:
     if not known.size or known.size < len(ratios) or not (known > 0.0).all():
         return None
     factor = float(np.median(known))
-    alike = (
-        np.all(np.abs(known / factor - 1.0) < THRESHOLDS.max_ratio_deviation)
-        and abs(factor - 1.0) > 2.0 * THRESHOLDS.max_ratio_deviation
-    )
+    most = THRESHOLDS.max_ratio_deviation
+    alike = np.all(np.abs(known / factor - 1.0) < most) and abs(factor - 1.0) > 2.0 * most
     return factor if alike else None
 
 

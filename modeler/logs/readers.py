@@ -385,11 +385,8 @@ def _read_folder(path: Path, wanted: ColumnRequest) -> Columns:
         return read_bag(path, wanted)
     if (path / INFO).is_file():
         return blocks.read_dataset(path, wanted)
-    files = [
-        p
-        for p in sorted(path.iterdir())
-        if p.suffix.lower() in _READERS and p.is_file() and not p.name.startswith(".")
-    ]
+    every = (p for p in sorted(path.iterdir()) if p.suffix.lower() in _READERS)
+    files = [p for p in every if p.is_file() and not p.name.startswith(".")]
     if not files:
         raise DataError(
             f"{path}: is a folder without {BAG}, {INFO} or logs; expected a log, the folder of a "

@@ -71,10 +71,8 @@ def reproduce_briot(paper: Paper, report: Callable[[float], None]) -> list[Metho
     bare, loaded, other = (_simulate_currents(run, gains, rng) for run in runs)
     known = Payload((loaded.name,), mass=mass)
     gain_fit = identify_gains(compiled, observe(compiled, [bare, loaded]), [known])
-    cases = [
-        _weigh_load(compiled, bare, other, dict.fromkeys(JOINTS, maker)),
-        _weigh_load(compiled, bare, other, gain_fit.gains),
-    ]
+    both = (dict.fromkeys(JOINTS, maker), gain_fit.gains)
+    cases = [_weigh_load(compiled, bare, other, each) for each in both]
     figure = _build_figure_3(compiled, gain_fit, loaded, mass)
     return [_build_table_3(table, gain_fit), figure, _build_second_load_table(paper, cases)]
 
@@ -155,36 +153,24 @@ def _build_figure_3(
             lambda s, w: compiled.inverse_dynamics(s.q[w], s.qd[w], s.qdd[w], beta)[:, :, None]
         )[:, :, 0]
 
-    efforts = {
-        "computed with the load": compute_efforts(gain_fit.result.beta + load),
-        "computed without it": compute_efforts(gain_fit.result.beta),
-        "measured": measured,
-    }
-    loaded, bare = (
-        np.linalg.norm(np.where(used, measured - model, 0.0), axis=0)
-        / np.linalg.norm(np.where(used, measured, 0.0), axis=0)
-        for model in list(efforts.values())[:2]
-    )
+    beta = gain_fit.result.beta
+    efforts = {"computed with the load": compute_efforts(beta + load)}
+    efforts |= {"computed without it": compute_efforts(beta), "measured": measured}
+    size = np.linalg.norm(np.where(used, measured, 0.0), axis=0)
+    models = list(efforts.values())[:2]
+    left = (np.linalg.norm(np.where(used, measured - x, 0.0), axis=0) for x in models)
+    loaded, bare = (each / size for each in left)
     why, rows = f"{FELT:g} times as much without", []
     for joint, a, b in zip(JOINTS, loaded, bare, strict=True):
         text = f"{format_percent(a)}; without load {format_percent(b)}"
         outcome = judge_outcome(FELT * a < b, Outcome.HOLDS)
         rows.append(MethodRow(f"motor {joint}", '"well simulated"', text, outcome, why))
     shown = observation.time < SHOWN
-    panels = [
-        (
-            Panel(
-                f"Motor {joint}",
-                "time, s",
-                "force, N",
-                tuple(
-                    Curve(name, observation.time[shown], tau[shown, j], style)
-                    for (name, tau), style in zip(efforts.items(), _STYLES, strict=True)
-                ),
-            ),
-        )
-        for j, joint in enumerate(JOINTS)
-    ]
+    panels = []
+    for j, joint in enumerate(JOINTS):
+        curves = zip(efforts, efforts.values(), _STYLES, strict=True)
+        parts = (Curve(n, observation.time[shown], x[shown, j], style) for n, x, style in curves)
+        panels.append((Panel(f"Motor {joint}", "time, s", "force, N", tuple(parts)),))
     title = f"Figure 3: efforts with the load of {mass:g} kg, what the model leaves"
     drawn = f"Figure 3 of the simulated Orthoglide: efforts with the load of {mass:g} kg"
     picture = Picture("figure_3", drawn, _CAPTION, tuple(panels), 600, shared_time=True)

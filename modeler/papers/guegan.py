@@ -72,11 +72,10 @@ def _compare_blocks(derivation: Derivation, compiled: CompiledModel) -> list[Met
         for (row, column), value in zip(block.entries, block_values, strict=True):
             of[block.name][:, block.rows.index(row), block.columns.index(column)] = value
         known = block.columns[0] in names
-        c[block.name] = (
-            phi[:, :, [names.index(x) for x in block.columns]]
-            if known
-            else G[:, [free.index(x) for x in block.rows]]
-        )
+        if known:
+            c[block.name] = phi[:, :, [names.index(x) for x in block.columns]]
+        else:
+            c[block.name] = G[:, [free.index(x) for x in block.rows]]
     return _build_rows(of, c, [name[2:] for name in of if name.startswith("DL")], phi)
 
 
@@ -92,23 +91,19 @@ def _build_rows(
         scans.append(Jp @ np.linalg.inv(inverse).swapaxes(1, 2) @ D)
     if c["DL1"].shape[2] * len(legs) > phi.shape[2]:  # shared: legs alike
         printed, right = "Jp^T sum_i [Ji^T DLi]", np.sum(ends, axis=0)
+        blocks = np.dstack([c["WP"], *(c[f"Dm{k}"] for k in legs), c["DL1"]])
+        first = _build_row("(30) DLS", printed, right, c["DL1"], np.sum(scans, axis=0))
         return [
-            _build_row("(30) DLS", printed, right, c["DL1"], np.sum(scans, axis=0)),
-            _build_row(
-                "(30) Dsym",
-                "its blocks",
-                np.dstack([DP, *drives, right]),
-                np.dstack([c["WP"], *(c[f"Dm{k}"] for k in legs), c["DL1"]]),
-            ),
+            first,
+            _build_row("(30) Dsym", "its blocks", np.dstack([DP, *drives, right]), blocks),
         ]
     rows = [_build_row("(1) Jp^-1", "Ld = Jp^-1 V", of["Jpinv"] @ of["Jp"], c["Jpinv"])]
     for k in legs:
         name, ours = f"(2) J{k}^-1", of[f"J{k}inv"] @ of["Jp"]
         rows.append(_build_row(name, f"qd{k} = J{k}^-1 V", ours, c[f"J{k}inv"]))
-    rows += [
-        _build_row(f"(25) Dm{k}", "ddotq1i, dotq1i, sign(dotq1i), 1", drive, c[f"Dm{k}"])
-        for k, drive in zip(legs, drives, strict=True)
-    ]
+    for k, drive in zip(legs, drives, strict=True):
+        columns = "ddotq1i, dotq1i, sign(dotq1i), 1"
+        rows.append(_build_row(f"(25) Dm{k}", columns, drive, c[f"Dm{k}"]))
     rows.append(_build_row("(26) DP", "Jp^T (dotVP - g)", DP, c["WP"]))
     parts, wanted = [DP], [c["WP"]]
     for n, k in enumerate(legs):
@@ -250,15 +245,9 @@ def build_motion_table(
         ours = f"{condition:.4g}"
         table.append(MethodRow(what, all_, ours, Outcome.SHOWN, "`modeler excite`, 10 s"))
     least, most = min(reached), max(reached)
-    table.append(
-        MethodRow(
-            "in reach over the cube",
-            all_,
-            f"{least:.4g} to {most:.4g}",
-            judge_outcome(least < printed[0] < most, Outcome.HOLDS),
-            "between ten chosen motions and ten slow ones",
-        )
-    )
+    outcome = judge_outcome(least < printed[0] < most, Outcome.HOLDS)
+    why, ours = "between ten chosen motions and ten slow ones", f"{least:.4g} to {most:.4g}"
+    table.append(MethodRow("in reach over the cube", all_, ours, outcome, why))
     setting = (
         f"the paper prints no limits, only {rows:g} rows: ten motions of {lasts:.2f} s at 2.5 ms "
         "between random joint positions",

@@ -103,18 +103,14 @@ def _build_inertia_tables(
     phi = np.array([[f.evaluate(_compute_trigonometry(c.pose)) for f in functions] for c in moved])
     inverse = np.linalg.pinv(phi / sigma[:, None])
     values, deviations = inverse @ (inertia / sigma), np.linalg.norm(inverse, axis=1)
+    triples = zip(truth.items(), values.tolist(), deviations.tolist(), strict=True)
     rows = [
-        methods.judge_recovery(
-            name, f"{truth[name]:g}", truth[name], float(value), float(deviation)
-        )
-        for name, value, deviation in zip(truth, values, deviations, strict=True)
+        methods.judge_recovery(n, f"{x:g}", x, value, sigma) for (n, x), value, sigma in triples
     ]
-    return [
-        MethodTable(f"Eq. (3): J11 from {len(moved)} configurations", SETTING, tuple(rows)),
-        _build_singular_values_table(
-            read_quotation(paper, "3.63")[:7], np.linalg.svd(phi, compute_uv=False)
-        ),
-    ]
+    printed, ours = read_quotation(paper, "3.63")[:7], np.linalg.svd(phi, compute_uv=False)
+    title = f"Eq. (3): J11 from {len(moved)} configurations"
+    table = _build_singular_values_table(printed, ours)
+    return [MethodTable(title, SETTING, tuple(rows)), table]
 
 
 def _compute_trigonometry(pose: np.ndarray) -> dict[str, float]:

@@ -48,17 +48,13 @@ def build_constraints(robot: Robot) -> Constraints:
     names = [joint.name for joint in moving]
     variables = {joint.variable: v[i] for i, joint in enumerate(moving)}
     values = {**robot.evaluate_symbols(), **variables}
-    rows = [
-        v[names.index(name)] - relation.fold(values, FUNCTIONS, float(np.pi), float)
-        for name, relation in robot.relations.items()
-    ]
+    relations = ((v[names.index(n)], relation) for n, relation in robot.relations.items())
+    rows = [x - relation.fold(values, FUNCTIONS, float(np.pi), float) for x, relation in relations]
     # The largest of the robot's lengths, m; 1 where none has a symbol.
     lengths = [abs(value) for name, value in robot.evaluate_symbols().items() if name != "g"]
     size = max(lengths, default=1.0) or 1.0
-    frames = {
-        name: Frame(frame.rotation, frame.position / size, frame.axis)
-        for name, frame in compute_world_frames(robot, v).items()
-    }
+    poses = compute_world_frames(robot, v).items()
+    frames = {name: Frame(f.rotation, f.position / size, f.axis) for name, f in poses}
     for loop in robot.loops:
         rows += _KINDS[loop.kind](frames[loop.frame], frames[loop.meets])
     c = ca.vertcat(*rows)
@@ -207,10 +203,8 @@ def compute_singularity_distances(constraints: Constraints, v: np.ndarray) -> np
 
 
 def _iterate_chunks(count: int) -> Iterator[slice]:
-    return (
-        slice(begin, min(begin + THRESHOLDS.samples_per_chunk, count))
-        for begin in range(0, count, THRESHOLDS.samples_per_chunk)
-    )
+    chunk = THRESHOLDS.samples_per_chunk
+    return (slice(begin, min(begin + chunk, count)) for begin in range(0, count, chunk))
 
 
 def _solve_least_squares(Q: np.ndarray, R: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -424,12 +418,8 @@ def find_closed_motion(
         DataError: no share of the range will do.
     """
     home = np.array([robot.home.get(joint.name, 0.0) for joint in robot.coordinates])
-    least = (
-        KEPT
-        * compute_singularity_distances(
-            constraints, compute_closed_postures(robot, constraints, home[None])
-        )[0]
-    )
+    posture = compute_closed_postures(robot, constraints, home[None])
+    least = KEPT * compute_singularity_distances(constraints, posture)[0]
 
     def is_clear_of_singularities(reference: Reference) -> bool:
         """Returns True if loops close from home on, no nearer than `least` to a singularity."""
@@ -440,12 +430,8 @@ def find_closed_motion(
         stride = max(1, round(1 / (THRESHOLDS.checked_rate * step)))
         q = np.vstack([home + fractions[:, None] * first, reference.q[::stride]])
         try:
-            return bool(
-                compute_singularity_distances(
-                    constraints, compute_closed_postures(robot, constraints, q)
-                ).min()
-                >= least
-            )
+            postures = compute_closed_postures(robot, constraints, q)
+            return bool(compute_singularity_distances(constraints, postures).min() >= least)
         except DataError:
             return False
 

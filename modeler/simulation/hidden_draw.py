@@ -188,12 +188,10 @@ def _build_site(
     standard = parameters.standard
     values = {p: standard[p + name] for p in _OWN if p + name in standard}
     # With what the robot file knows of friction and rotor, in the same motion.
-    parts = (
-        scale.torque,
-        values.get("Ia", 0.0) * THRESHOLDS.lively_rms_share * limit.acceleration,
-        values.get("Fv", 0.0) * THRESHOLDS.lively_rms_share * limit.speed,
-        values.get("Fs", 0.0),
-    )
+    share = THRESHOLDS.lively_rms_share
+    rotor = values.get("Ia", 0.0) * share * limit.acceleration
+    viscous = values.get("Fv", 0.0) * share * limit.speed
+    parts = (scale.torque, rotor, viscous, values.get("Fs", 0.0))
     torque, speed, inertia = float(np.linalg.norm(parts)), scale.speed, scale.inertia
     if kind.where == "pair":  # it acts on the next joint too: what is large for the weaker one
         motors = [names.index(other.name) for other in robot.coordinates]

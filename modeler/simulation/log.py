@@ -266,10 +266,8 @@ def build_log_columns(log: SimulatedLog) -> dict[str, np.ndarray]:
     driven = [(i, name) for i, name in enumerate(log.joints) if log.driven[i]]
     columns |= {f"qc{name}": log.qc[:, i] for i, name in driven}
     gains = log.settings.drive_gains
-    columns |= {
-        f"current{name}" if name in gains else f"tau{name}": log.tau[:, i] / gains.get(name, 1.0)
-        for i, name in driven
-    }
+    names = {i: f"current{name}" if name in gains else f"tau{name}" for i, name in driven}
+    columns |= {names[i]: log.tau[:, i] / gains.get(name, 1.0) for i, name in driven}
     return columns | dict(log.further)
 
 

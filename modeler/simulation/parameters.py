@@ -362,10 +362,8 @@ def estimate_joint_scales(
     idle = rms <= THRESHOLDS.max_idle_torque_share * rms.max()
     rms[idle] = THRESHOLDS.idle_torque_share * rms.max()
     inertia[idle] = rms[idle] / lift[idle, 0]
-    return [
-        ShaftScale(float(torque), limit.speed, float(mass))
-        for torque, mass, limit in zip(rms, inertia, limits, strict=True)
-    ]
+    rows = zip(rms.tolist(), inertia.tolist(), limits, strict=True)
+    return [ShaftScale(torque, limit.speed, mass) for torque, mass, limit in rows]
 
 
 # The links: as stated, the rest drawn.
@@ -459,10 +457,8 @@ def _draw_bodies(robot: Robot, pose: np.ndarray, rng: np.random.Generator) -> di
     on_it = np.array([name in chain for name in tips])
     total = THRESHOLDS.mass_per_squared_reach * length[on_it].sum() ** 2
     masses = total * weights / weights[on_it].sum()
-    return {
-        name: _draw_box(mass * rng.uniform(0.8, 1.2), tip, rng)
-        for (name, tip), mass in zip(tips.items(), masses, strict=True)
-    }
+    links = zip(tips.items(), masses, strict=True)
+    return {name: _draw_box(m * rng.uniform(0.8, 1.2), tip, rng) for (name, tip), m in links}
 
 
 def _draw_box(mass: float, tip: np.ndarray, rng: np.random.Generator) -> Body:
@@ -508,11 +504,6 @@ def merge_shared_names(
     """Returns values and drawn names by the robot's own names: XX2 for XX21, XX22, XX23."""
     first = {shared.members[0]: shared.name for shared in robot.shared}
     merged_names = {member for shared in robot.shared for member in shared.members[1:]}
-    return (
-        {
-            first.get(n, n): value
-            for n, value in parameters.standard.items()
-            if n not in merged_names
-        },
-        tuple(first.get(n, n) for n in parameters.drawn if n not in merged_names),
-    )
+    values, drawn = parameters.standard, parameters.drawn
+    renamed = {first.get(n, n): value for n, value in values.items() if n not in merged_names}
+    return renamed, tuple(first.get(n, n) for n in drawn if n not in merged_names)

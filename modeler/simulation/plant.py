@@ -453,10 +453,8 @@ def _compute_jacobian(
     # Steps well inside the smooth core of dry friction (1e-3 of the top speed).
     speeds = [1e-6 * limit.speed for limit in limits]
     size = np.concatenate([np.full(n, 1e-6), speeds, np.full(z.size, 1e-6)])
-    columns = [
-        (compute_rate(x + h * unit) - compute_rate(x - h * unit)) / (2 * h)
-        for h, unit in zip(size, np.eye(x.size), strict=True)
-    ]
+    pairs = zip(size, np.eye(x.size), strict=True)
+    columns = [(compute_rate(x + h * e) - compute_rate(x - h * e)) / (2 * h) for h, e in pairs]
     return np.column_stack(columns)
 
 

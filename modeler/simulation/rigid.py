@@ -17,16 +17,8 @@ from modeler.simulation.thresholds import THRESHOLDS
 # Where the links are: frames of a modified Denavit-Hartenberg table in the world frame.
 
 
-FUNCTIONS = {
-    "sin": ca.sin,
-    "cos": ca.cos,
-    "tan": ca.tan,
-    "sqrt": ca.sqrt,
-    "exp": ca.exp,
-    "abs": ca.fabs,
-    "sign": ca.sign,
-    "tanh": ca.tanh,
-}
+_SAME = {name: getattr(ca, name) for name in ("sin", "cos", "tan", "sqrt", "exp", "sign", "tanh")}
+FUNCTIONS = {**_SAME, "abs": ca.fabs}
 
 
 @dataclass(frozen=True)
@@ -285,13 +277,10 @@ def _compute_joint_torques(
         if joint.is_moving:
             body, spin = bodies[name], motion.spin
             arm = frame.rotation @ body.centre
-            centre_acceleration = (
-                motion.acceleration
-                + ca.cross(motion.spin_rate, arm)
-                + ca.cross(spin, ca.cross(spin, arm))
-            )
+            acceleration = motion.acceleration + ca.cross(motion.spin_rate, arm)
+            acceleration += ca.cross(spin, ca.cross(spin, arm))
             inertia = frame.rotation @ body.inertia @ frame.rotation.T
-            push = body.mass * (centre_acceleration - gravity)
+            push = body.mass * (acceleration - gravity)
             turn = inertia @ motion.spin_rate + ca.cross(spin, inertia @ spin)
             force[name] += push
             moment[name] += turn + ca.cross(arm, push)

@@ -33,16 +33,9 @@ from modeler.simulation.trajectory import Reference, widen_limits
 
 def compute_encoder_resolution(joints: Sequence[Joint], settings: SimulationSettings) -> np.ndarray:
     """Returns (joints,) rad or m per count; 0 for an ideal encoder."""
-    return np.array(
-        [
-            2 * np.pi / settings.encoder_counts
-            if joint.is_revolute and settings.encoder_counts
-            else 0.0
-            if joint.is_revolute
-            else settings.linear_resolution
-            for joint in joints
-        ]
-    )
+    turn = 2 * np.pi / settings.encoder_counts if settings.encoder_counts else 0.0
+    slide = settings.linear_resolution
+    return np.array([turn if joint.is_revolute else slide for joint in joints])
 
 
 def quantise_position(position: np.ndarray, resolution: np.ndarray) -> np.ndarray:
@@ -539,8 +532,6 @@ def _read_thermometers(plant: Plant, z: np.ndarray) -> dict[str, np.ndarray]:
     if not plant.thermometer_joints:
         return {}
     readings = plant.temperatures.map(len(z))(z.T).full()
-    return {
-        f"temperature{joint}": np.round(values / THRESHOLDS.thermometer_resolution)
-        * THRESHOLDS.thermometer_resolution
-        for joint, values in zip(plant.thermometer_joints, readings, strict=True)
-    }
+    least = THRESHOLDS.thermometer_resolution
+    rows = zip(plant.thermometer_joints, readings, strict=True)
+    return {f"temperature{joint}": np.round(values / least) * least for joint, values in rows}

@@ -113,13 +113,8 @@ def build_one_joint_reference(
         steps += [(sign * along, level) for level in levels for sign in (1, -1)]
         moves = [(step, path.compute_move_time(step, level)) for step, level in steps]
         home = path.compute_move_time(path.middle - start_point)
-        if (
-            now
-            + sum(lasts + THRESHOLDS.rest_time for _, lasts in moves)
-            + home
-            + THRESHOLDS.pause_time
-            > path.time[-1]
-        ):
+        last = now + sum(lasts + THRESHOLDS.rest_time for _, lasts in moves) + home
+        if last + THRESHOLDS.pause_time > path.time[-1]:
             break
         for step, lasts in moves:
             path.add_move(now, lasts, step)
@@ -210,11 +205,8 @@ class _ReferenceBuilder:
 
         Exciting ones are of several speeds, some of only some joints, and none takes long.
         """
-        speeds, longest = (
-            (THRESHOLDS.move_speeds, THRESHOLDS.max_move_time)
-            if exciting
-            else (_AS_FAST_AS_CAN_BE, np.inf)
-        )
+        speeds = THRESHOLDS.move_speeds if exciting else _AS_FAST_AS_CAN_BE
+        longest = THRESHOLDS.max_move_time if exciting else np.inf
         now, here, turn = THRESHOLDS.pause_time, self.middle, 0
         while True:
             level = speeds[turn % len(speeds)]
@@ -250,13 +242,8 @@ class _ReferenceBuilder:
                 size = round_to_ten_digits(rng.uniform(0.5, 1.0)) / harmonic
                 sine, cosine = compute_sine_and_cosine(phase)
                 series += size * np.array([sine, omega * cosine, -(omega**2) * sine])
-            shaped = np.array(
-                [
-                    window[0] * series[0],
-                    window[1] * series[0] + window[0] * series[1],
-                    window[2] * series[0] + 2 * window[1] * series[1] + window[0] * series[2],
-                ]
-            )
+            (w, w1, w2), (x, x1, x2) = window, series
+            shaped = np.array([w * x, w1 * x + w * x1, w2 * x + 2 * w1 * x1 + w * x2])
             bounds = ((limit.upper - limit.lower) / 2, limit.speed, limit.acceleration)
             peaks = np.max(np.abs(shaped), axis=1)
             shares = [bound / peak for bound, peak in zip(bounds, peaks, strict=True) if peak > 0]
