@@ -14,7 +14,7 @@ import numpy as np
 
 from benchmarks.excitation import FIVE, with_losses
 from modeler.api import compile_model, derive, generate
-from modeler.api.motion import build_bounds
+from modeler.api.motion_bounds import build_bounds
 from modeler.excitation import CollisionGeometry, ExcitingMotion, MotionRequest, design_motion
 from modeler.excitation.series import FAMILIES
 from modeler.robot import read_robot

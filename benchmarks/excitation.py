@@ -16,8 +16,7 @@ import numpy as np
 from scipy.optimize import differential_evolution, minimize
 
 from modeler.api import compile_model, derive, generate
-from modeler.api.motion import build_bounds as motion_bounds
-from modeler.cli.motion import parse_bounds
+from modeler.api.motion_bounds import build_bounds
 from modeler.excitation import (
     ExcitationTask,
     MotionRequest,
@@ -120,7 +119,7 @@ def main(names: list[str]) -> None:
     for name in names:
         robot = with_losses(read_robot(name))
         compiled = compile_model(generate(derive(robot)))
-        bounds = parse_bounds(robot, compiled, (), ())
+        bounds = build_bounds(robot, compiled, (), ())
         wish = MotionRequest(10.0, choose_harmonics(bounds, 10.0), "condition")
         begun = time.process_time()
         ours = design_motion(compiled, bounds, wish)
@@ -144,7 +143,7 @@ def families(names: list[str]) -> None:
     for name in names:
         robot = with_losses(read_robot(name))
         compiled = compile_model(generate(derive(robot)))
-        both = [motion_bounds(robot, compiled, {}, {}, margin) for margin in (None, 0.01)]
+        both = [build_bounds(robot, compiled, {}, {}, margin) for margin in (None, 0.01)]
         cells = []
         for family in FAMILIES:
             for bounds, wide in zip(both, (10, 8), strict=True):

@@ -1,4 +1,5 @@
 from .checks import (
+    CompareOptions as CompareOptions,
     compare as compare,
     compare_methods as compare_methods,
     compare_models as compare_models,
@@ -14,6 +15,8 @@ from .fitting import (
 )
 from .fleets import fleet as fleet
 from .improve import (
+    AddOptions as AddOptions,
+    DiagnoseOptions as DiagnoseOptions,
     add as add,
     add_all as add_all,
     add_discoveries as add_discoveries,
@@ -35,12 +38,12 @@ from .model import (
     open_robot as open_robot,
 )
 from .motion import (
-    check_motion as check_motion,
     discriminating_motion as discriminating_motion,
     excite as excite,
     expected_sigmas as expected_sigmas,
     simulate as simulate,
 )
+from .motion_bounds import check_motion as check_motion
 from .physical_parameters import physical as physical
 from .postures import home as home, home_posture as home_posture
 from .reexports import (
@@ -66,6 +69,7 @@ from .reexports import (
 )
 from .workflow import (
     AnyLog as AnyLog,
+    GenerateOptions as GenerateOptions,
     compile as compile,
     compile_model as compile_model,
     convert as convert,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from string import ascii_uppercase
 from typing import Any
@@ -13,14 +15,17 @@ import modeler.api.workflow as workflow
 from modeler import estimation, regression, validation
 from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range
 from modeler.api.workflow import AnyLog, Logs, are_long, are_too_long, compile_robot, open_sources
-from modeler.core.choices import ABOUT, Method
+from modeler.core.choices import ABOUT, Method, find_estimator_title
 from modeler.core.errors import DataError
+from modeler.core.jobs import SILENT, Reporter
 from modeler.core.manifest import JointSpec
+from modeler.core.options import CompareOptions, OptionError
 from modeler.core.table import label_values
 from modeler.derivation import complete_home
 from modeler.estimation import FitResult, IdentifiedModel, ParameterEstimate
 from modeler.logs import LogTable, split_joints
 from modeler.regression import (
+    DataWarning,
     Log,
     Observation,
     Processing,
@@ -34,7 +39,11 @@ from modeler.simulation import SimulatedLog
 
 
 def compare(
-    model: IdentifiedModel | Robot, logs: Logs, mapping: Mapped = ()
+    model: IdentifiedModel | Robot,
+    logs: Logs,
+    mapping: Mapped = (),
+    *,
+    options: CompareOptions = CompareOptions(),
 ) -> validation.Comparison:
     """Compares measured with predicted torque on logs, after the processing of the fit.
 
@@ -45,11 +54,158 @@ def compare(
         model: fitted; or a robot, with the values that its file states and 0 for all others.
         logs: that it predicts.
         mapping: as of `read_logs`.
+        options: the reduced model, or the robot with a load.
     """
-    (fitted_model,) = resolve_models([model])
-    return compare_logs(
-        fitted_model, workflow.convert_to_list(logs), workflow.compile(fitted_model), mapping
-    )[0]
+    (prepared,) = prepare_models([model], options)
+    compiled = compile_for_comparison(prepared, options)
+    return compare_logs(prepared, workflow.convert_to_list(logs), compiled, mapping)[0]
+
+
+def prepare_models(
+    things: Sequence[IdentifiedModel | Robot], options: CompareOptions
+) -> list[IdentifiedModel]:
+    """Returns models, as the options want them: reduced, or of the robot with a load.
+
+    Of a robot its `stated_model`, processed as the first model is.
+
+    Raises:
+        DataError: a robot of which a fit is wanted, or a load that cannot be.
+    """
+    for thing in things:
+        for name in ("essential", "run_embedded_c"):
+            if isinstance(thing, Robot) and getattr(options, name):
+                raise OptionError(
+                    f"{{--{name}}}: {thing.name} is a robot; expected a model of `modeler fit`; "
+                    f"leave {{--{name}}} out"
+                )
+    models = resolve_models(things)
+    if options.essential:
+        models = [estimation.keep_essential(m, f"model of {m.spec.robot}") for m in models]
+    if options.payload_mass is None:
+        return models
+    text = options.payload_centre or "0,0,0"
+    try:
+        centre = [float(part) for part in text.split(",")]
+    except ValueError:
+        raise OptionError(
+            f"{{--payload_centre}} {text}: expected x, y and z in m, as in 0,0,0.05"
+        ) from None
+    return [
+        estimation.add_known_load(model, options.payload_mass, centre, options.payload_link)
+        for model in models
+    ]
+
+
+def compile_for_comparison(model: IdentifiedModel, options: CompareOptions) -> CompiledModel:
+    """Compiles the C of a model: emitted anew, or as the model has it."""
+    return model.compile() if options.run_embedded_c else workflow.compile(model)
+
+
+_TRAINING = "training only: "
+
+
+@dataclass(frozen=True, eq=False)
+class ComparisonRun:
+    """A comparison, and what it is worth.
+
+    Attributes:
+        model: that was compared, with its load if it has one.
+        comparison: of it with the logs.
+        lines: where the model and the logs come from.
+        findings: faults of the logs.
+        is_held_out: False if the model was fitted on some of the logs.
+        beside: the same model without its load; None without one.
+    """
+
+    model: IdentifiedModel
+    comparison: validation.Comparison
+    lines: Sequence[str]
+    findings: Sequence[DataWarning]
+    is_held_out: bool
+    beside: validation.ModelComparison | None
+
+    @property
+    def is_noise_like(self) -> bool:
+        """Returns True if no joint's residual has structure, and nothing is wrong with the fit."""
+        like = all(validation.is_noise_like(joint) for joint in self.comparison.joints)
+        return like and not self.model.warning
+
+    def format_lines(self) -> list[str]:
+        """Returns the table, the verdict, and what is to be said of model and logs."""
+        beside = validation.format_model_comparison(self.beside) if self.beside else []
+        notes = [
+            line for line in self.lines if line.startswith((_TRAINING, "long logs: ", "note: "))
+        ]
+        return [
+            self.comparison.summary(),
+            *(["", *beside] if beside else []),
+            *([] if self.model.logs else self.model.fit.sentences),
+            "",
+            *validation.write_verdict(self.comparison),
+            *self.model.warning,
+            *notes,
+            *(fault.line for fault in self.findings),
+        ]
+
+    def to_json(self) -> dict[str, Any]:
+        """Returns the comparison for machines, with all doubts."""
+        stated = [] if self.model.logs else self.model.fit.sentences[1:]
+        doubts = [*stated, *(fault.line for fault in self.findings)]
+        return self.comparison.to_json() | {"warnings": doubts}
+
+
+def compare_with_provenance(
+    thing: IdentifiedModel | Robot,
+    logs: Sequence[AnyLog],
+    options: CompareOptions = CompareOptions(),
+    mapping: Mapped = (),
+    reporter: Reporter = SILENT,
+) -> ComparisonRun:
+    """Compares as `compare` does; says where all comes from, and what is wrong with the logs."""
+    (model,) = prepare_models([thing], options)
+    with reporter.report_step("predicting"):
+        compiled = compile_for_comparison(model, options)
+    with reporter.show_progress("predicting") as bar:
+        comparison, observation = compare_logs(
+            model, logs, compiled, mapping, bar, reporter.print_note
+        )
+    lines, training = _describe_model(model), _describe_training(model, observation)
+    findings = estimation.find_log_faults(compiled, observation, model)
+    report, beside = observation.report, None
+    if options.payload_mass is not None and not are_long(logs):
+        unloaded = CompareOptions(options.essential, options.run_embedded_c)
+        (bare,) = prepare_models([thing], unloaded)
+        both = {f"with {options.payload_mass:g} kg": model, "without the load": bare}
+        beside = compare_compiled_models(both, [compiled] * 2, logs, mapping, logs)[0]
+    lines += [*model.warning, *training, *report.format_lines(), *report.collect_notes()]
+    lines += [fault.line for fault in findings if fault.is_certain]
+    return ComparisonRun(model, comparison, lines, findings, not training, beside)
+
+
+def _describe_model(model: IdentifiedModel) -> list[str]:
+    if not model.logs:
+        return [*model.fit.sentences]
+    what = "" if model.fit.energy is None else "energy model, "
+    fitted = ", ".join(log.name for log in model.logs)
+    return [
+        f"model: {model.spec.robot}, {len(model.beta)} base parameters, "
+        f"{what}{find_estimator_title(model.fit.method)} on {fitted}; relative error there "
+        f"{model.fit.format_error()}"
+    ]
+
+
+def _describe_training(model: IdentifiedModel, observation: Observation) -> list[str]:
+    """A line on the logs whose rows the model was fitted on, whatever the files are called."""
+    training_logs = []
+    for log in observation.report.logs:
+        fitted = sorted({used.name for used in model.logs if used.has_rows_of(log)})
+        if fitted == [log.name]:
+            training_logs.append(log.name)
+        elif fitted:
+            training_logs.append(f"{', '.join(fitted)}, which shares rows with {log.name}")
+    if not training_logs:
+        return []
+    return [f"{_TRAINING}the model was fitted on {'; '.join(training_logs)}"]
 
 
 def resolve_models(things: Sequence[IdentifiedModel | Robot]) -> list[IdentifiedModel]:
@@ -178,19 +334,55 @@ def compare_models(
         DataError: fewer than two models, or of different robots.
     """
     if len(models) < 2:
-        raise DataError(f"contest: got {len(models)} models; expected two at least")
+        raise DataError(f"compare_models: got {len(models)} models; expected two at least")
     if isinstance(models, Mapping):
         models_by_name = models
     elif len(models) <= len(ascii_uppercase):
         models_by_name = dict(zip(ascii_uppercase, models, strict=False))
     else:
         raise DataError(
-            f"contest: got a list of {len(models)} models, more than there are letters; expected a "
-            "mapping of names, each to a model"
+            f"compare_models: got a list of {len(models)} models, more than there are letters; "
+            "expected a mapping of names, each to a model"
         )
-    stated = dict(zip(models_by_name, resolve_models(list(models_by_name.values())), strict=True))
-    compiled = [workflow.compile(model) for model in stated.values()]
-    return compare_compiled_models(stated, compiled, logs, mapping)[0]
+    return compare_named_models(models_by_name, logs, mapping=mapping)[0]
+
+
+def compare_named_models(
+    things: Mapping[str, IdentifiedModel | Robot],
+    logs: Logs,
+    options: CompareOptions = CompareOptions(),
+    mapping: Mapped = (),
+    reporter: Reporter = SILENT,
+) -> tuple[validation.ModelComparison, list[str], list[IdentifiedModel], bool]:
+    """Compares as `compare_models` does; says where all comes from.
+
+    Returns:
+        The comparison, lines on models and logs, the models, and True if none was fitted on these
+        logs.
+    """
+    names = list(things)
+    models = dict(zip(names, prepare_models([*things.values()], options), strict=True))
+    validation.check_joints([*models.values()], names)
+    compiled, places = [], workflow.convert_to_list(logs)
+    with reporter.show_progress("predicting") as bar:
+        for k, model in enumerate(models.values(), 1):
+            compiled.append(compile_for_comparison(model, options))
+            bar(k / (len(models) + 1))
+        comparison, read = compare_compiled_models(models, compiled, logs, mapping, places)
+    lines = []
+    for name, model in models.items():
+        sources = "; ".join(model.fit.sentences)
+        if model.logs:
+            sources = f"fitted on {', '.join(log.name for log in model.logs)}"
+        lines.append(f"{name}: {model.spec.robot}, {len(model.beta)} base parameters, {sources}")
+    lines.append(f"logs: {', '.join(log.name for log in read)}, processed as those of {names[0]}")
+    trained = [
+        f"{_TRAINING}{name} was fitted on rows of {log.name}, which flatters it"
+        for name, model in models.items()
+        for log in read
+        if any(used.has_rows_of(log) for used in model.logs)
+    ]
+    return comparison, [*lines, *trained], [*models.values()], not trained
 
 
 def compare_compiled_models(
@@ -198,7 +390,7 @@ def compare_compiled_models(
     compiled: Sequence[CompiledModel],
     logs: Logs,
     mapping: Mapped = (),
-    places: Sequence[str] = (),
+    places: Sequence[AnyLog] = (),
 ) -> tuple[validation.ModelComparison, list[Log]]:
     """Compares compiled models, and returns the logs too.
 
@@ -210,7 +402,7 @@ def compare_compiled_models(
         places: what messages call the logs.
     """
     read = [workflow.read_logs(compiled_model, logs, mapping) for compiled_model in compiled]
-    check_no_overlap(read[0], places=places)
+    check_no_overlap(read[0], places=[str(place) for place in places])
     names = list(models)
     predictions, _ = validation.predict_together(list(models.values()), compiled, read, names)
     return validation.compare_models(names, predictions), read[0]
@@ -237,13 +429,59 @@ def free_run(
     Raises:
         DataError: a log cannot be run; says why.
     """
-    compiled = workflow.compile(model)
-    return validation.simulate_free_run(
-        model,
-        workflow.read_logs(compiled, logs, mapping),
-        compiled,
-        settings or validation.FreeRunSettings(),
+    described = settings or validation.FreeRunSettings()
+    return simulate_positions(model, logs, CompareOptions(), described, mapping)[0]
+
+
+def simulate_positions(
+    thing: IdentifiedModel | Robot,
+    logs: Logs,
+    options: CompareOptions,
+    settings: validation.FreeRunSettings,
+    mapping: Mapped = (),
+    reporter: Reporter = SILENT,
+) -> tuple[validation.FreeRun, IdentifiedModel]:
+    """Simulates as `free_run` does a model as the options want it, and returns that too."""
+    (model,) = prepare_models([thing], options)
+    with reporter.report_step("deriving the robot of the model"):
+        compiled = compile_for_comparison(model, options)
+        read = workflow.read_logs(compiled, logs, mapping)
+    check_no_overlap(read, places=[str(log) for log in workflow.convert_to_list(logs)])
+    with reporter.show_progress("simulating") as bar:
+        return validation.simulate_free_run(model, read, compiled, settings, bar), model
+
+
+def build_free_run_settings(options: CompareOptions) -> validation.FreeRunSettings:
+    """Builds the settings of a free run; what is not stated is as usual.
+
+    Raises:
+        DataError: a controller that cannot be.
+    """
+    stated = {"window": options.window, "bound": options.bound}
+    return validation.FreeRunSettings(
+        gains=None if options.controller is None else _parse_gains(options.controller),
+        **{name: value for name, value in stated.items() if value is not None},
     )
+
+
+def _parse_gains(text: str) -> validation.Gains:
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        values = []
+    if not 2 <= len(values) <= 4 or not all(math.isfinite(v) and v >= 0.0 for v in values):
+        raise OptionError(
+            f"{{--controller}} {text}: expected two to four numbers that are not negative, as in "
+            "20,0.25 or 20,0.25,1,1: speed loop in Hz, ratio of the position loop, integral, "
+            "feedforward"
+        )
+    if values[0] == 0.0 or values[1] == 0.0:
+        raise OptionError(
+            f"{{--controller}} {text}: a loop of 0 holds nothing; expected a speed loop and a "
+            "ratio above 0"
+        )
+    speed, ratio, integral, forward = [*values, 0.0, 0.0][:4]
+    return speed, ratio, integral, forward
 
 
 def predict_torque(
@@ -324,7 +562,10 @@ def compare_methods(
     logs: Logs,
     holdout: Logs = (),
     methods: Sequence[str] | None = None,
-    progress: Callable[[float], None] | None = None,
+    *,
+    mapping: Mapped = (),
+    processing: Processing | None = None,
+    reporter: Reporter = SILENT,
 ) -> estimation.MethodComparison:
     """Compares all estimators on the same logs: values, errors, run time, remarks.
 
@@ -337,18 +578,24 @@ def compare_methods(
         logs: to fit.
         holdout: logs of other motion, not fitted: their error.
         methods: some of `estimators()`; None: all.
-        progress: called with the share done, 0 to 1.
+        mapping: as of `read_logs`.
+        processing: of the logs; None: chosen from them.
+        reporter: of the progress.
 
     Raises:
         DataError: an unknown method, rows given twice, or what the weighted fit raises.
     """
     chosen = select_methods(methods)
-    compiled = compile_robot(robot).compiled if isinstance(robot, Robot) else robot
-    observation, held_out = observe_held_out(compiled, logs, holdout)
-    tried = estimation.compare_methods(observation, compiled, held_out, chosen, progress)
-    return estimation.MethodComparison(
-        compiled.spec.robot, tried, tuple(observation.report.format_lines())
-    )
+    if isinstance(robot, Robot):
+        with reporter.report_step(f"deriving {robot.name}"):
+            robot = compile_robot(robot).compiled
+    compiled = robot
+    with reporter.report_step("building the observation matrix"):
+        observation, held_out = observe_held_out(compiled, logs, holdout, mapping, processing)
+    with reporter.show_progress("fitting") as bar:
+        tried = estimation.compare_methods(observation, compiled, held_out, chosen, bar)
+    lines = tuple(observation.report.format_lines())
+    return estimation.MethodComparison(compiled.spec.robot, tried, lines)
 
 
 def observe_held_out(

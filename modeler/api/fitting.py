@@ -3,7 +3,7 @@
 import dataclasses
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any, Literal
 
@@ -21,15 +21,14 @@ from modeler.api.workflow import (
     Steps,
     compile_robot,
     convert_to_list,
-    ignore_step,
     read_logs,
 )
 from modeler.codegen import Derivation
 from modeler.core.choices import GAIN_METHOD, TWO_STEPS, Method
 from modeler.core.errors import DataError, FitWarning
-from modeler.core.fit_options import METHODS, FitOptions
-from modeler.core.jobs import Workers
+from modeler.core.jobs import SILENT, Reporter, open_workers
 from modeler.core.manifest import EmittedModule
+from modeler.core.options import METHODS, FitOptions, OptionError
 from modeler.derivation import complete_home
 from modeler.estimation import OF_TRIANGLES, long_logs as chunked
 from modeler.formats import read_robot
@@ -91,31 +90,31 @@ def check_options(options: FitOptions, load: Load | None = None) -> None:
     refusals = {
         f"got method {method}{suggest_name(str(method), METHODS)}; expected one of "
         f"{', '.join(METHODS)}": method not in METHODS,
-        "--payload-mass, --payload-link and --payload-moved need a log with the load; name it with "
-        "--payload-log LOG, in Python load=Load(logs)": (
+        "{--payload_mass}, {--payload_link} and {--payload_moved} need a log with the load; name "
+        "it with {--payload_log} LOG, in Python load=Load(logs)": (
             load is not None and not loaded and (moved or {load.mass, load.link} != {None})
         ),
         f"method {method} takes no logs with a load; expected {loads} or {GAIN_METHOD}": (
             loaded and not gains and method not in loads.split(", ")
         ),
-        f"method {method} has no reduced model; leave essential-below out": (
+        f"method {method} has no reduced model; leave {{--essential_below}} out": (
             gains and options.essential_below is not None
         ),
-        "a window needs the energy model; add --model energy, or leave the window out": (
+        "a window needs the energy model; add {--model} energy, or leave {--window} out": (
             options.window is not None and not energy
         ),
         f"the energy model does not take method {method}; expected {windows}": (
             energy and method not in windows.split(", ")
         ),
         "the energy model takes no logs with a load; leave out one of them": energy and loaded,
-        f"method {method} needs a log with a load of known mass; give --payload-log LOG "
-        "--payload-mass KG, in Python load=Load(logs, mass)": gains and not loaded,
+        f"method {method} needs a log with a load of known mass; give {{--payload_log}} LOG "
+        "{--payload_mass} KG, in Python load=Load(logs, mass)": gains and not loaded,
         f"method {method} needs the mass of the load, which fixes the scale of all gains; add "
-        "--payload-mass KG": gains and load is not None and load.mass is None,
+        "{--payload_mass} KG": gains and load is not None and load.mass is None,
     }
     for why, refused in refusals.items():
         if refused:
-            raise DataError(f"fit: {why}")
+            raise OptionError(f"fit: {why}")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -209,7 +208,7 @@ def fit_observation(
     robot: CompiledRobot,
     observation: Observation,
     payloads: Sequence[estimation.Payload] = (),
-    report_step: Steps = ignore_step,
+    report_step: Steps = SILENT.report_step,
 ) -> tuple[Model, FitOutcome]:
     """Estimates the base parameters and returns the model with the outcome of the estimator."""
     with report_step("estimating"):
@@ -249,27 +248,6 @@ Effects = str | Sequence[str] | Mapping[str, Any]
 """Effects that every joint has, by their ids; or a table as [effects] of a robot file."""
 
 
-Progress = Callable[[str], AbstractContextManager[Callable[[float], None]]]
-"""Opens a step of this title whose share of done work can be reported."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Reporter:
-    """Reports the progress of a fit, and gives its workers.
-
-    Attributes:
-        report_step: is called with the title of each step, which lasts as long as the context.
-        show_progress: the same, for a step whose share of done work is known.
-        print_note: takes a line on what is done otherwise than requested.
-        cluster: gives workers for long logs; None: threads of this process.
-    """
-
-    report_step: Steps = ignore_step
-    show_progress: Progress = lambda title: nullcontext(lambda share: None)
-    print_note: Callable[[str], None] = lambda line: None
-    cluster: AbstractContextManager[Workers] | None = None
-
-
 def prepare_robot(robot: Robot | str | Path, effects: Effects | None = None) -> Robot:
     """Reads a robot, sets its effects, and finds [home] if it has loops.
 
@@ -302,7 +280,7 @@ def identify(
     effects: Effects | None = None,
     load: Load | None = None,
     processing: Processing | None = None,
-    steps: Steps = ignore_step,
+    reporter: Reporter = SILENT,
 ) -> Model:
     """Identifies a robot from its logs, as `modeler fit` does, and returns the model.
 
@@ -322,7 +300,7 @@ def identify(
         effects: instead of those of the robot file.
         load: that some logs carry.
         processing: of the logs; None: by [fit] of the robot file, or chosen from them.
-        steps: is called with the title of each step.
+        reporter: of the progress.
 
     Warns:
         FitWarning: the fit is not usable; says why and what to do.
@@ -336,22 +314,17 @@ def identify(
     stated = {**robot.fit, **({} if method is None else {"method": method})}
     options = FitOptions.from_names(stated)
     check_options(options, load)
-    with steps(f"deriving {robot.name}"):
+    with reporter.report_step(f"deriving {robot.name}"):
         compiled_robot = compile_robot(robot)
     compiled = compiled_robot.compiled
     mapping, stored_mapping = resolve_mapping(compiled, training_logs, mapping)
     held_out_logs = _read_in_memory_logs(compiled, held_out_logs, mapping)
     training_logs = _read_in_memory_logs(compiled, training_logs, mapping)
-
-    def check_log_sets(bare: Sequence[Log], loaded: Sequence[Log]) -> None:
-        gains = options.method == GAIN_METHOD
-        others = () if gains else read_logs(compiled, held_out_logs, mapping)
-        check_no_overlap([*bare, *loaded], others)
-
+    gains = options.method == GAIN_METHOD
+    others = () if gains else read_logs(compiled, held_out_logs, mapping)
     model, _, _, loaded = fit_logs(
         *(options, compiled_robot, training_logs, load or Load((), None)),
-        *(processing or workflow.build_processing(stated), mapping, check_log_sets),
-        Reporter(steps),
+        *(processing or workflow.build_processing(stated), mapping, others, reporter),
     )
     for line in model.warning:
         warnings.warn(line, FitWarning, stacklevel=2)  # of who called
@@ -373,8 +346,9 @@ def fit_logs(
     load: Load,
     processing: Processing,
     mapping: Mapped,
-    check: Callable[[Sequence[Log], Sequence[Log]], None],
-    reporter: Reporter,
+    held_out: Sequence[Log] = (),
+    reporter: Reporter = SILENT,
+    dask: str | None = None,
 ) -> tuple[Model, Observation, FitOutcome, list[Log]]:
     """Fits logs of any length by any method.
 
@@ -385,28 +359,66 @@ def fit_logs(
         load: and the logs that carry it, if any do.
         processing: of the logs.
         mapping: as of `read_logs`.
-        check: refuses logs, bare and loaded, that do not belong together.
+        held_out: logs that must share no rows with the others.
         reporter: of its progress.
+        dask: address of a scheduler whose workers read long logs, or "local".
 
     Returns:
         The model, the observation it was fitted to, the outcome, and the loaded logs.
+
+    Raises:
+        DataError: logs that do not belong together, or such as no worker can read.
     """
     if options.method == GAIN_METHOD:
         gain_fit = _fit_gains(
-            *(robot.derivation, robot.compiled, logs, load, processing, check),
-            *(reporter.report_step, mapping),
+            *(robot.derivation, robot.compiled, logs, load, processing),
+            *(held_out, reporter.report_step, mapping),
         )
         return *gain_fit, FitOutcome(gain_fit[0].fit), []
-    long = _fit_if_long(options, robot, logs, load.logs, processing, mapping, reporter)
+    check_dask(options, load, dask)
+    long = _fit_if_long(options, robot, logs, load.logs, processing, mapping, reporter, dask)
     if long is not None:
         return *long, FitOutcome(long[0].fit), []
     with reporter.report_step("building the observation matrix"):
         bare, loaded = (read_logs(robot.compiled, some, mapping) for some in (logs, load.logs))
-        check(bare, loaded)
+        _check_logs(logs, bare, load.logs, loaded, held_out)
         observation = observe(robot.compiled, [*bare, *loaded], processing)
     payloads = load.build_payloads(loaded) if loaded else ()
     model, outcome = fit_observation(options, robot, observation, payloads, reporter.report_step)
     return model, observation, outcome, loaded
+
+
+def check_dask(options: FitOptions, load: Load, dask: str | None) -> None:
+    """Raises an error for workers where the fit needs all rows in one memory."""
+    why = describe_whole_fit(options, load.logs)
+    if dask is not None and why:
+        raise OptionError(
+            f"{{--dask}} {dask}: got {why}, which needs all rows in one memory; expected "
+            f"{{--method}} {' or '.join(OF_TRIANGLES)} of the torque model; leave {{--dask}} out"
+        )
+
+
+def _check_logs(
+    bare_places: Sequence[AnyLog],
+    bare: Sequence[Log],
+    loaded_places: Sequence[AnyLog],
+    loaded: Sequence[Log],
+    held_out: Sequence[Log],
+) -> None:
+    """Refuses rows given twice, and a loaded log by the name of one without load."""
+    logs = [*bare, *loaded]
+    places = [
+        str(place) if isinstance(place, str | Path) else log.name
+        for place, log in zip([*bare_places, *loaded_places], logs, strict=True)
+    ]
+    check_no_overlap(logs, held_out, places)
+    place_by_name = {log.name: place for place, log in zip(places, bare, strict=False)}
+    for place, log in zip(places[len(bare) :], loaded, strict=True):
+        if log.name in place_by_name:
+            raise DataError(
+                f"{place}: carries the load, and {place_by_name[log.name]} has the same file "
+                "name; rename one, loads are assigned by name"
+            )
 
 
 def fit(
@@ -489,15 +501,14 @@ def _fit_gains(
     logs: Sequence[AnyLog],
     load: Load,
     processing: Processing,
-    check: Callable[[Sequence[Log], Sequence[Log]], None] | None = None,
-    report_step: Steps = ignore_step,
+    held_out: Sequence[Log] = (),
+    report_step: Steps = SILENT.report_step,
     mapping: Mapped = (),
 ) -> tuple[Model, Observation]:
     """Estimates drive gains, and returns the model and the observation it was fitted to.
 
     The gains are found first. Then the logs are read once more with them, as whoever uses the model
-    will: all that is reported about the fit is reported of those torques. `check` refuses logs,
-    bare and loaded, that do not belong together; None: those that share rows.
+    will: all that is told of the fit is told of those torques.
     """
     unused = estimation.describe_unused_prior(compiled.spec, f"method {GAIN_METHOD}", _UNUSED)
 
@@ -505,10 +516,7 @@ def _fit_gains(
         model: CompiledModel, processing: Processing
     ) -> tuple[Observation, list[estimation.Payload]]:
         bare, loaded = (workflow.read_currents(model, some, mapping) for some in (logs, load.logs))
-        if check is None:
-            check_no_overlap([*bare, *loaded])
-        else:
-            check(bare, loaded)
+        _check_logs(logs, bare, load.logs, loaded, held_out)
         return observe(model, [*bare, *loaded], processing), load.build_payloads(loaded)
 
     with report_step("finding the drive gains"):
@@ -580,7 +588,8 @@ def _fit_if_long(
     loaded: Sequence[AnyLog],
     processing: Processing,
     mapping: Mapped,
-    reporter: "Reporter",
+    reporter: Reporter,
+    dask: str | None,
 ) -> tuple[Model, Observation] | None:
     """Fits long logs in chunks; returns None where all rows must be in memory.
 
@@ -588,7 +597,7 @@ def _fit_if_long(
         DataError: they have more rows than an estimator may have that needs all of them.
     """
     every = [*logs, *loaded]
-    if reporter.cluster is None and not workflow.are_long(every):
+    if dask is None and not workflow.are_long(every):
         return None
     if why := describe_whole_fit(options, loaded):
         workflow.check_fits_memory(every, why)
@@ -596,14 +605,14 @@ def _fit_if_long(
     try:
         with (
             reporter.show_progress("reading and reducing") as bar,
-            reporter.cluster or nullcontext() as workers,
+            nullcontext() if dask is None else open_workers(dask) as workers,
         ):
             sources = workflow.open_sources(robot.compiled, logs, mapping)
             reducer = None if workers is None else make_worker_reducer(workers, robot.emitted)
             here = [each.name for each in sources if not can_read_from_middle(each)]
             if workers is not None and here:
                 reporter.print_note(
-                    f"--dask: {', '.join(here)}: read and reduced by this process; workers can "
+                    f"dask: {', '.join(here)}: read and reduced by this process; workers can "
                     "begin in the middle of Parquet files only"
                 )
             method: Any = options.method
@@ -622,12 +631,12 @@ def _fit_if_long(
 def describe_whole_fit(options: FitOptions, loaded: Sequence[AnyLog]) -> str:
     """Returns the option for which a fit needs all rows in memory; "" for none."""
     if loaded:
-        return "--payload-log"
+        return "{--payload_log}"
     if options.essential_below is not None:
-        return "--essential-below"
+        return "{--essential_below}"
     if options.model == "energy":
-        return "--model energy"
-    return "" if options.method in OF_TRIANGLES else f"--method {options.method}"
+        return "{--model} energy"
+    return "" if options.method in OF_TRIANGLES else f"{{--method}} {options.method}"
 
 
 def add_long_verdict(

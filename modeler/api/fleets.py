@@ -1,15 +1,19 @@
 """One robot kind, many machines and days."""
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+import os
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range
+from modeler.api.thresholds import THRESHOLDS
 from modeler.api.workflow import AnyLog, compile_model, convert_to_list, read_logs
 from modeler.codegen import derive, generate
+from modeler.core.choices import LOG_ENDINGS
 from modeler.core.errors import DataError, LoopError, split_time_range
-from modeler.core.jobs import Workers, ignore_progress, open_workers
+from modeler.core.jobs import SILENT, Done, Reporter, Workers, ignore_progress, open_workers
 from modeler.core.manifest import EmittedModule
+from modeler.core.options import OptionError
 from modeler.regression import Processing
 from modeler.robot import Robot
 from modeler.runtime import CompiledModel
@@ -22,11 +26,10 @@ from modeler.validation import (
     analyse_fleet,
     arrange_logs,
     name_logs,
+    read_log_list,
     reduce_log,
     summarise_log,
 )
-
-Progress = Callable[[float], None]
 
 
 def fleet(
@@ -34,11 +37,12 @@ def fleet(
     logs: str | Path | Sequence[str | Path] | Mapping[str, Mapping[str, AnyLog]],
     name: str | None = None,
     *,
+    listed: str | Path | None = None,
     processing: Processing | None = None,
     mapping: Mapped = (),
-    processes: int = 1,
+    workers: int | None = 1,
     dask: str | None = None,
-    progress: Progress | None = None,
+    reporter: Reporter = SILENT,
 ) -> Fleet:
     """Estimates the drift of friction, offsets and gains of many machines of one kind.
 
@@ -51,34 +55,73 @@ def fleet(
 
     Args:
         robot: of all machines; with the effects that are to be followed.
-        logs: files, machine and period by their names; or logs by machine and period.
+        logs: files, or folders of such, machine and period by their names; or logs by machine and
+            period.
         name: pattern of files, as "{machine}-{period}.csv"; None: folder and file.
+        listed: file with a list of logs, in place of these.
         processing: None: chosen for each log, from its own noise.
         mapping: as of `read_logs`.
-        processes: that read logs at once; only files are read by others than this one.
+        workers: processes that read logs at once; only files are read by others than this one;
+            None: one for few logs, all processors for many.
         dask: address of a scheduler, or "local".
-        progress: called with the share done, 0 to 1.
+        reporter: of the progress.
 
     Raises:
         DataError: no usable logs, two of one machine and period, too few to compare.
     """
-    emitted = generate(derive(robot))
-    compiled = compile_model(emitted)
+    if workers is not None and workers < 1:
+        raise OptionError(f"{{--workers}}: got {workers}; expected 1 or more")
+    named_paths = () if isinstance(logs, Mapping) else _name_files(logs, name, listed)
+    with reporter.report_step(f"deriving {robot.name}"):
+        emitted = generate(derive(robot))
+        compiled = compile_model(emitted)
     if isinstance(logs, Mapping):
         pairs = {
             LogName(machine, period, f"{machine}, {period}"): log
             for machine, period_logs in logs.items()
             for period, log in period_logs.items()
         }
-        return analyse_fleet(
-            emitted.spec, _reduce_in_memory(compiled, pairs, processing, mapping, progress)
-        )
-    named_paths = name_logs([split_window(str(place)) for place in convert_to_list(logs)], name)
-    with open_workers(dask, processes) as workers:
-        summaries = reduce_logs(
-            compiled, emitted, named_paths, workers, processing, mapping, progress
-        )
-    return analyse_fleet(emitted.spec, summaries)
+        with reporter.show_progress(f"reading {len(pairs)} logs") as bar:
+            summaries = _reduce_in_memory(compiled, pairs, processing, mapping, bar)
+        return analyse_fleet(emitted.spec, summaries)
+    few = len(named_paths) < THRESHOLDS.min_logs_for_processes
+    count = workers or (1 if few else os.cpu_count() or 1)
+    with (
+        reporter.show_progress(f"reading {len(named_paths)} logs") as bar,
+        open_workers(dask, min(count, len(named_paths))) as pool,
+    ):
+        summaries = reduce_logs(compiled, emitted, named_paths, pool, processing, mapping, bar)
+    with reporter.report_step("comparing machines and days"):
+        return analyse_fleet(emitted.spec, summaries)
+
+
+def _name_files(
+    logs: str | Path | Sequence[str | Path], name: str | None, listed: str | Path | None
+) -> tuple[LogName, ...]:
+    """The logs with their machines and periods."""
+    if listed is not None:
+        return read_log_list(Path(listed))
+    places = [str(place) for place in convert_to_list(logs)]
+    if not places:
+        raise OptionError("fleet: got no logs; name files or folders of logs, or {--listed} FILE")
+    return name_logs([split_window(place) for place in _collect_log_files(places)], name)
+
+
+def _collect_log_files(places: Sequence[str]) -> list[str]:
+    """Logs as they are; of a folder, all in it and in its folders."""
+    log_files = []
+    for place in places:
+        folder = Path(place)
+        if not Path(split_window(place)[0]).exists():
+            raise DataError(f"{place}: no such file or folder; expected logs, or folders of logs")
+        if not folder.is_dir() or (folder / "metadata.yaml").is_file():  # a ROS 2 bag is a log
+            log_files.append(place)
+            continue
+        inside = [str(p) for p in sorted(folder.rglob("*")) if p.suffix.lower() in LOG_ENDINGS]
+        if not inside:
+            raise DataError(f"{place}: a folder without logs; expected {', '.join(LOG_ENDINGS)}")
+        log_files += inside
+    return log_files
 
 
 def split_window(place: str) -> tuple[str, str]:
@@ -94,7 +137,7 @@ def reduce_logs(
     workers: Workers,
     processing: Processing | None = None,
     mapping: Mapped = (),
-    progress: Progress | None = None,
+    progress: Done = ignore_progress,
 ) -> list[LogSummary | SkippedLog]:
     """Reduces all logs to summaries, each with the cut-offs of its own noise."""
     jobs = []
@@ -103,7 +146,7 @@ def reduce_logs(
         path, span = parse_time_range(each.place)
         jobs.append(LogJob(each, str(Path(path).absolute()), span, processing, names))
     code = dataclasses.replace(emitted, files=emitted.code)
-    return workers.map_jobs(reduce_log, code, jobs, progress or ignore_progress)
+    return workers.map_jobs(reduce_log, code, jobs, progress)
 
 
 def _reduce_in_memory(
@@ -111,7 +154,7 @@ def _reduce_in_memory(
     logs: Mapping[LogName, AnyLog],
     processing: Processing | None,
     mapping: Mapped,
-    progress: Progress | None,
+    progress: Done,
 ) -> list[LogSummary | SkippedLog]:
     """The same of logs at hand, in this process."""
     summaries: list[LogSummary | SkippedLog] = []
@@ -121,6 +164,5 @@ def _reduce_in_memory(
             summaries.append(summarise_log(compiled, log, named, processing))
         except (DataError, LoopError) as error:
             summaries.append(SkippedLog(named, str(error)))
-        if progress is not None:
-            progress(len(summaries) / len(logs))
+        progress(len(summaries) / len(logs))
     return summaries

@@ -131,7 +131,7 @@ def _guess_map(
                 guess, layers=(layer if len(left) == len(entries) else left,)
             )
         assignments = [f"{k} = {_format_entry(e)}" for k, e in guess.build_table(joints).items()]
-        message = f"--map auto took {'; '.join(assignments) or 'the columns as they are called'}"
+        message = f"mapping auto took {'; '.join(assignments) or 'the columns as they are called'}"
         missing = [
             f"{o} (no column {e.columns[0]})"
             for o, e in names.expand_entries(joints).items()
@@ -239,9 +239,8 @@ def _fit_mapping(
 
 
 def read_mapped_log(
-    place: str | Path | InMemory, spec: Any, names: LogMap, where: str = "log",
-    spread: bool = False,
-) -> regression.Log:  # fmt: skip
+    place: str | Path | InMemory, spec: Any, names: LogMap, where: str = "log", spread: bool = False
+) -> regression.Log:
     """Reads a log, or a time range of it, with a mapping; `where` begins messages.
 
     With `spread` a log too long to be diagnosed as a whole is read as segments of it.

@@ -21,6 +21,7 @@ from modeler.api.workflow import AnyLog, Logs, compile, convert_to_list, generat
 from modeler.core.errors import DataError
 from modeler.core.files import read_file
 from modeler.core.manifest import EmittedModule
+from modeler.core.options import AddOptions, DiagnoseOptions
 from modeler.core.table import label_values
 from modeler.estimation import IdentifiedModel, ParameterEstimate, model_file
 from modeler.formats import Exported, read_robot
@@ -323,7 +324,9 @@ class Model(IdentifiedModel):
         """
         held_out_logs = self.held_out if held_out is None else convert_to_list(held_out)
         fit_logs = self.find_logs(logs, "missing")
-        return improve.diagnose(self, fit_logs, held_out_logs, without, mapping=mapping)
+        return improve.diagnose(
+            self, fit_logs, held_out_logs, DiagnoseOptions(tuple(without)), mapping=mapping
+        )
 
     def add(
         self,
@@ -347,11 +350,8 @@ class Model(IdentifiedModel):
         """
         held_out_logs = self.held_out if held_out is None else tuple(convert_to_list(held_out))
         fit_logs = self.find_logs(logs, "add")
-        if effect == "auto":
-            better = improve.add_all(self, fit_logs, held_out_logs, mapping=mapping)
-        else:
-            place = None if joint is None else str(joint)
-            better = improve.add(self, effect, fit_logs, held_out_logs, place, mapping)
+        options = AddOptions(None if joint is None else str(joint))
+        better = improve.add(self, effect, fit_logs, held_out_logs, options, mapping=mapping)
         memory_logs = tuple(log for log in fit_logs if isinstance(log, Log))
         return dataclasses.replace(
             better, in_memory_logs=memory_logs or self.in_memory_logs, held_out=held_out_logs
@@ -418,7 +418,7 @@ class Model(IdentifiedModel):
         >>> model.to_c("arm_c").spec.prefix
         'two_link'
         """
-        return generate(self, folder, force)
+        return generate(self, folder, force=force)
 
     def export(
         self,

@@ -1,7 +1,6 @@
 """Motions that determine parameters or discriminate effects; simulated measurements; clearance."""
 
 import dataclasses
-import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -10,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from modeler import excitation, formats, simulation
+from modeler import excitation, simulation
 from modeler.api.log_maps import Mapped
+from modeler.api.motion_bounds import Assignments, build_bounds
 from modeler.api.thresholds import THRESHOLDS
 from modeler.api.workflow import (
     Logs,
@@ -24,90 +24,15 @@ from modeler.api.workflow import (
     read_logs,
 )
 from modeler.core.errors import DataError
+from modeler.core.jobs import SILENT, Reporter, ignore_progress
+from modeler.core.options import ExciteOptions, OptionError
 from modeler.effects import find_effect
 from modeler.estimation import FitResult, IdentifiedModel, identify
 from modeler.numerics.filters import BANDWIDTH
 from modeler.regression import Log, Observation, Processing, check_no_overlap, observe
-from modeler.robot import Limits, Robot, parse_robot_text, suggest_name
+from modeler.robot import Robot, parse_robot_text, suggest_name
 from modeler.runtime import CompiledModel
 from modeler.simulation import HiddenEffect, SimulatedLog, SimulationSettings
-
-
-def add_clearance(
-    robot: Robot, compiled: CompiledModel, bounds: excitation.MotionBounds, margin: float | None
-) -> excitation.MotionBounds:
-    """Adds the minimum distance between links to the bounds.
-
-    Looked at are all links that share no joint and touch in some postures only.
-
-    Args:
-        robot: its [capsules]; without, as `capsules_on_links` draws them.
-        compiled: the same.
-        bounds: ranges, from which postures are drawn.
-        margin: m; None: 0.01 if the robot file has [capsules], else links are not looked at.
-
-    Raises:
-        DataError: a margin below 0.
-    """
-    if margin is None:
-        if not (robot.capsules or robot.planes):
-            return bounds
-        margin = THRESHOLDS.link_clearance
-    if not 0.0 <= margin < math.inf:
-        raise DataError(f"clearance: got {margin:g} m; expected 0 or more")
-    ranges = np.stack([bounds.lower, bounds.upper])
-    solids = _collect_solids(robot, compiled)
-    clearance = excitation.exclude_neighbours(compiled, solids, margin, ranges, bounds.home)
-    return dataclasses.replace(bounds, clearance=clearance)
-
-
-def _collect_solids(robot: Robot, compiled: CompiledModel) -> excitation.CollisionGeometry:
-    """All capsules, and all pairs of links that share no joint."""
-    moving, closure = [joint.name for joint in robot.moving_joints], compiled.spec.closure
-    at = {} if closure is None else dict(zip(closure.variables, closure.home, strict=True))
-    shapes = formats.locate_capsules(robot, at)
-    on, links = {row: carrier for row, carrier, _ in shapes}, [carrier for _, carrier, _ in shapes]
-    joined = {frozenset((on.get(j.name), on.get(j.antecedent))) for j in robot.joints}
-    joined |= {frozenset((on.get(loop.frame), on.get(loop.meets))) for loop in robot.loops}
-    pairs = [
-        (i, k)
-        for i, k in itertools.combinations(range(len(links)), 2)
-        if links[i] != links[k] and frozenset((links[i], links[k])) not in joined
-    ]
-    moves = [i for i, link in enumerate(links) if link in moving]
-    pairs += [(i, len(links) + k) for i in moves for k in range(len(robot.planes))]
-    planes = np.array([*robot.planes.values()]).reshape(-1, 4)
-    planes /= np.linalg.norm(planes[:, :3], axis=1)[:, None]
-    places = [moving.index(link) if link in moving else excitation.BASE for link in links]
-    return excitation.CollisionGeometry(
-        (*("base" if row == "0" else row for row, *_ in shapes), *robot.planes),
-        np.array(places + [excitation.BASE] * len(planes)),
-        np.array([(shape.start, shape.end) for *_, shape in shapes]),
-        np.array([shape.radius for *_, shape in shapes] + [0.0] * len(planes)),
-        planes[:, :3], planes[:, 3], np.array(pairs, dtype=int).reshape(-1, 2),
-    )  # fmt: skip
-
-
-def find_nearest_along(
-    compiled: CompiledModel, clearance: excitation.Clearance, motion: simulation.Reference
-) -> excitation.ClosestApproach | None:
-    """Finds the two nearest links along a motion; None without pairs to check."""
-    if not len(clearance.solids.pairs):
-        return None
-    curve, samples = (
-        simulation.build_curve(motion),
-        max(excitation.THRESHOLDS.clearance_samples, 2 * len(motion.time)),
-    )
-    return excitation.find_closest_approach(
-        compiled, clearance.solids, curve, float(motion.time[-1]), samples
-    )
-
-
-Progress = Callable[[float], None]
-
-
-def _ignore_progress(share: float) -> None:
-    """Nobody looks."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,7 +58,7 @@ class Subject:
         self,
         bounds: excitation.MotionBounds,
         wish: excitation.MotionRequest,
-        progress: Progress = _ignore_progress,
+        progress: Callable[[float], None] = ignore_progress,
         known: excitation.PriorInformation | None = None,
     ) -> excitation.ExcitingMotion:
         """Searches the motion along which the parameters are best determined."""
@@ -151,7 +76,7 @@ class Subject:
     def check_known_noise(self, where: str = "") -> None:
         """Raises an error if parameters or torque noise are unknown; `where` begins the message."""
         if self.sigma is None or self.beta is None:
-            raise DataError(
+            raise OptionError(
                 f"{where}{self.robot.name}: sigmas follow from the values of its parameters and "
                 "the noise of its torques, which are not known; expected a model of `modeler fit`"
             )
@@ -179,11 +104,9 @@ class Subject:
         driven = [joint.actuated for joint in spec.joints]
         tau = self.compiled.inverse_dynamics(q, qd, qdd, self.beta, read)
         tau = tau + driven * self.sigma * np.sqrt(power) * rng.normal(size=q.shape)
-        return Log(
-            "forecast", tuple(names), moves["time"],
-            encoders.quantise_positions(q, [joint.unit for joint in spec.joints], rng), tau,
-            extra={"temperature": np.zeros(len(q))},
-        )  # fmt: skip
+        logged = encoders.quantise_positions(q, [joint.unit for joint in spec.joints], rng)
+        warm = {"temperature": np.zeros(len(q))}
+        return Log("forecast", tuple(names), moves["time"], logged, tau, extra=warm)
 
 
 @dataclass(frozen=True)
@@ -197,6 +120,11 @@ class Encoders:
 
     counts: int = 0
     noise: Any = 0.0
+
+    @classmethod
+    def from_options(cls, options: ExciteOptions) -> "Encoders":
+        """Returns the encoders of a forecast."""
+        return cls(options.encoder_counts or 0, options.position_noise or 0.0)
 
     def quantise_positions(
         self, q: np.ndarray, units: Sequence[str], rng: np.random.Generator
@@ -279,11 +207,11 @@ class RecordedLogs:
         both = identify(observe(compiled, [*self.logs, log], self.processing), "weighted", compiled)
         before, after = self.fit.parameters, both.parameters
         gain = excitation.InformationGain(
-            tuple(p.name for p in before), tuple(p.unit for p in before),
-            tuple(p.sigma for p in before), tuple(p.sigma for p in after),
+            *(tuple(p.name for p in before), tuple(p.unit for p in before)),
+            *(tuple(p.sigma for p in before), tuple(p.sigma for p in after)),
             tuple(log.name for log in self.logs),
             (self.fit.condition_scaled, both.condition_scaled),
-        )  # fmt: skip
+        )
         return dataclasses.replace(motion, information_gain=gain)
 
 
@@ -314,12 +242,10 @@ def excite(
     logs: Logs = (),
     *,
     mapping: Mapped = (),
-    rate: float = 1000.0,
-    limits: Mapping[str, Sequence[float]] | None = None,
-    boxes: Mapping[str, Sequence[float]] | None = None,
-    clearance: float | None = None,
-    progress: Progress = _ignore_progress,
-    **wish: Any,
+    limits: Assignments = (),
+    boxes: Assignments = (),
+    reporter: Reporter = SILENT,
+    **options: Any,
 ) -> excitation.ExcitingMotion:
     """Searches a motion within limits that determines the parameters (docs/how-to/excitation.md).
 
@@ -329,31 +255,170 @@ def excite(
     Args:
         thing: a robot, or a model: then weighted as its fit, essential parameters only.
         logs: that there are: the motion adds most to what they determine, and its `gain` says what;
-            all parameters, and criterion "information" unless another one is requested.
+            all parameters, and objective "information" unless another one is requested.
         mapping: whose column of the logs is which, over [log] of the robot file.
-        rate: samples of the next log per second.
         limits: joint -> lower, upper, speed, acceleration and, if wanted, torque, SI; in place of
             those of the robot file.
         boxes: frame -> x0, x1, y0, y1, z0, z1 in frame 0, m, that its origin stays in.
-        clearance: m that links keep from each other and from planes; None: 0.01 if the robot file
-            has [capsules], else they are not looked at.
-        progress: called with the share done, 0 to 1.
-        wish: of `excite.search.Wish`: duration [s], harmonics, criterion, starts, seed ...
+        reporter: of the progress.
+        options: of `ExciteOptions`: duration [s], rate [Hz] of the next log, clearance [m] that
+            links keep, harmonics, objective, starts, seed ...
 
     Raises:
-        DataError: limits or a wish that cannot be.
+        DataError: limits or options that cannot be.
         RobotError: an empty range.
     """
+    chosen = _build_options({"rate": THRESHOLDS.next_log_rate, **options})
+    subject, bounds = prepare_search(thing, chosen, limits, boxes)
+    return search_motion(subject, bounds, chosen, logs, mapping, reporter=reporter).motion
+
+
+def _build_options(options: Mapping[str, Any]) -> ExciteOptions:
+    known = [field.name for field in dataclasses.fields(ExciteOptions)]
+    for name in options:
+        if name not in known:
+            raise DataError(f"excite: got {name}; expected some of {', '.join(known)}")
+    return ExciteOptions(**options)
+
+
+def prepare_search(
+    thing: Robot | IdentifiedModel,
+    options: ExciteOptions,
+    limits: Assignments = (),
+    boxes: Assignments = (),
+) -> tuple[Subject, excitation.MotionBounds]:
+    """Returns what is to be excited, and the bounds of its motion."""
+    if not (math.isfinite(options.rate) and 0.0 < options.rate <= THRESHOLDS.max_rate):
+        raise OptionError(
+            f"{{--rate}}: got {options.rate:g}; expected more than 0, at most "
+            f"{THRESHOLDS.max_rate:g}"
+        )
     subject = build_subject(thing)
-    bounds = build_bounds(subject.robot, subject.compiled, limits or {}, boxes or {}, clearance)
-    if not convert_to_list(logs):
-        return subject.search_motion(bounds, _build_wish(bounds, wish), progress)
-    recorded_logs = fit_recorded_logs(subject, logs, mapping)
-    request = _build_wish(bounds, {"criterion": "information", **wish})
-    motion = recorded_logs.subject.search_motion(
-        bounds, request, progress, recorded_logs.known_information
+    if options.encoder_counts or options.position_noise:
+        subject.check_known_noise("{--encoder_counts}, {--position_noise}: ")
+    return subject, build_bounds(subject.robot, subject.compiled, limits, boxes, options.clearance)
+
+
+@dataclass(frozen=True, eq=False)
+class FoundMotion:
+    """A motion that was found, with what is expected of it.
+
+    Attributes:
+        motion: it.
+        effects: of the robot.
+        separation: of two effects along it, where these were asked for.
+        forecast: of the sigmas of a log of it: a sentence, and values; None where none is known.
+    """
+
+    motion: excitation.ExcitingMotion
+    effects: Sequence[str]
+    separation: excitation.Discrimination | None = None
+    forecast: tuple[str, dict[str, Any] | None] | None = None
+
+    def format_lines(self) -> list[str]:
+        """Returns the motion, the separation and the forecast as lines."""
+        lines = self.motion.format_lines()
+        if self.separation is not None:
+            lines = [*self.separation.format_lines(), *lines[2:]]
+        return lines if self.forecast is None else [*lines, self.forecast[0]]
+
+    def to_json(self) -> dict[str, Any]:
+        """Returns all of it for machines."""
+        extra: dict[str, Any] = {"effects": list(self.effects)}
+        if self.separation is not None:
+            extra["discrimination"] = self.separation.to_json()
+        if self.forecast is not None:
+            extra["forecast"] = self.forecast[1]
+        return self.motion.to_json() | extra
+
+
+def search_motion(
+    subject: Subject,
+    bounds: excitation.MotionBounds,
+    options: ExciteOptions,
+    logs: Logs = (),
+    mapping: Mapped = (),
+    between: str | None = None,
+    reporter: Reporter = SILENT,
+) -> FoundMotion:
+    """Searches as `excite` does, or as `discriminating_motion`, and forecasts sigmas."""
+    recorded_logs = None
+    if convert_to_list(logs):
+        with reporter.report_step("fitting the logs that there are"):
+            recorded_logs = fit_recorded_logs(subject, logs, mapping)
+        subject = recorded_logs.subject
+    request = _build_request(bounds, options, "information" if recorded_logs else "both")
+    encoders, separation = Encoders.from_options(options), None
+    effects = [use.effect for use in subject.robot.effects]
+    with reporter.show_progress(f"looking for a motion of {subject.robot.name}") as bar:
+        if between is not None:
+            question = parse_question(subject, between, "{--between}")
+            motion, separation = excitation.design_discriminating_motion(
+                subject.compiled, bounds, request, question, bar
+            )
+        else:
+            known = recorded_logs.known_information if recorded_logs else None
+            motion = subject.search_motion(bounds, request, bar, known)
+        if recorded_logs is not None:
+            motion = recorded_logs.predict_gain(motion, options.rate, encoders)
+    if recorded_logs is not None or subject.sigma is None:
+        return FoundMotion(motion, effects, separation)
+    with reporter.report_step("forecasting sigmas"):
+        forecast = describe_expected_sigmas(subject, motion, options.rate, encoders)
+    return FoundMotion(motion, effects, separation, forecast)
+
+
+def _build_request(
+    bounds: excitation.MotionBounds, options: ExciteOptions, objective: str
+) -> excitation.MotionRequest:
+    harmonics = options.harmonics
+    if harmonics is None:
+        harmonics = excitation.choose_harmonics(bounds, options.duration)
+    return excitation.MotionRequest(
+        duration=options.duration,
+        harmonics=harmonics,
+        criterion=options.objective or objective,
+        starts=options.starts,
+        seed=options.seed,
+        time_limit=options.time_limit,
+        laps=options.laps,
+        family=options.family,
     )
-    return recorded_logs.predict_gain(motion, rate, Encoders())
+
+
+def describe_expected_sigmas(
+    subject: Subject, motion: excitation.ExcitingMotion, rate: float, encoders: Encoders
+) -> tuple[str, dict[str, Any] | None]:
+    """Describes the expected sigmas of a motion: a sentence, and values for JSON."""
+    about = (
+        f"forecast of a log at {rate:g} Hz, {encoders.describe()}, torques as noisy as the model's"
+    )
+    try:
+        fit = subject.predict_fit(motion, rate, encoders)
+    except DataError as error:
+        return f"{about}: it cannot be fitted: {error}", None
+    shares = {p.name: p.relative_sigma_percent for p in fit.parameters}
+    limit, chosen = THRESHOLDS.max_determined_sigma, fit.processing
+    sure = [name for name, share in shares.items() if share is not None and share < limit]
+    worse = sorted(set(shares) - set(sure), key=lambda name: -(shares[name] or math.inf))
+    uncertain = [
+        f"{name} ({'not determined' if shares[name] is None else f'{shares[name]:.3g} %'})"
+        for name in worse[: THRESHOLDS.named_parameters]
+    ]
+    sentence = (
+        f"{about}: the fit filters positions at {chosen.position_cutoff:g} Hz and torques at "
+        f"{chosen.parallel_cutoff:g} Hz; sigma is below {limit:g} % for "
+        f"{len(sure)} of {len(shares)} parameters"
+        f"{'; least sure: ' * bool(uncertain)}{', '.join(uncertain)}"
+    )
+    return sentence, {
+        "rate": rate,
+        "encoder_counts": encoders.counts,
+        "position_noise": encoders.noise,
+        "position_cutoff": chosen.position_cutoff,
+        "parallel_cutoff": chosen.parallel_cutoff,
+        "sigmas": {p.name: p.sigma for p in fit.parameters},
+    }
 
 
 def expected_sigmas(
@@ -391,10 +456,10 @@ def discriminating_motion(
     first: str,
     second: str,
     *,
-    limits: Mapping[str, Sequence[float]] | None = None,
-    boxes: Mapping[str, Sequence[float]] | None = None,
-    progress: Progress = _ignore_progress,
-    **wish: Any,
+    limits: Assignments = (),
+    boxes: Assignments = (),
+    reporter: Reporter = SILENT,
+    **options: Any,
 ) -> tuple[excitation.ExcitingMotion, excitation.Discrimination]:
     """Searches the motion along which two missing effects differ most.
 
@@ -404,35 +469,23 @@ def discriminating_motion(
         second: the other.
         limits: as of `excite`.
         boxes: as of `excite`.
-        progress: called with the share done, 0 to 1.
-        wish: as of `excite`.
+        reporter: of the progress.
+        options: as of `excite`.
 
     Raises:
         DataError: an effect or joint that is not there, or that the model has.
     """
-    subject = build_subject(model)
-    bounds = build_bounds(subject.robot, subject.compiled, limits or {}, boxes or {})
-    question = parse_question(subject, f"{first},{second}", "tell_apart:")
-    return excitation.design_discriminating_motion(
-        subject.compiled, bounds, _build_wish(bounds, wish), question, progress
-    )
-
-
-def _build_wish(
-    bounds: excitation.MotionBounds, options: Mapping[str, Any]
-) -> excitation.MotionRequest:
-    known = [field.name for field in dataclasses.fields(excitation.MotionRequest)]
-    for name in options:
-        if name not in known:
-            raise DataError(f"excite: got {name}; expected some of {', '.join(known)}")
-    duration = options.get("duration", excitation.MotionRequest().duration)
-    return excitation.MotionRequest(
-        **{"harmonics": excitation.choose_harmonics(bounds, duration), **options}
-    )
+    chosen = _build_options(options)
+    subject, bounds = prepare_search(model, chosen, limits, boxes)
+    question = parse_question(subject, f"{first},{second}", "discriminating_motion:")
+    with reporter.show_progress(f"looking for a motion of {subject.robot.name}") as bar:
+        return excitation.design_discriminating_motion(
+            subject.compiled, bounds, _build_request(bounds, chosen, "both"), question, bar
+        )
 
 
 def parse_question(
-    subject: Subject, texts: str, where: str = "--between"
+    subject: Subject, texts: str, where: str = "{--between}"
 ) -> excitation.DiscriminationProblem:
     """Parses the two effects that a motion has to discriminate.
 
@@ -444,6 +497,10 @@ def parse_question(
     Raises:
         DataError: not two, or one that is not there or that the model has.
     """
+    if subject.beta is None or subject.essential_columns is None:  # a robot
+        raise OptionError(
+            f"{where}: {subject.robot.name} has no values; expected a model file of `modeler fit`"
+        )
     joints = [joint.name for joint in subject.compiled.spec.joints]
     catalogue = subject.robot.catalogue
     ids = [effect.id for effect in catalogue]
@@ -452,130 +509,85 @@ def parse_question(
         name, _, joint = text.strip().partition("@")
         effect = find_effect(name, catalogue)
         if effect is None:
-            raise DataError(
+            raise OptionError(
                 f"{where} {text}: no such effect{suggest_name(name, ids)}; expected some of "
                 f"{', '.join(ids)}"
             )
         if joint not in joints:
-            raise DataError(
+            raise OptionError(
                 f"{where} {text}: got joint {joint or '(none)'}; expected EFFECT@J with one of "
                 f"{', '.join(joints)}"
             )
         if subject.robot.has_effect(effect.id, joint):
-            raise DataError(
+            raise OptionError(
                 f"{where} {text}: the model has {effect.id} on joint {joint} already; expected "
                 "effects that it lacks"
             )
         effect_pair.append((effect, joint))
     if len(effect_pair) != 2 or effect_pair[0] == effect_pair[1]:
-        raise DataError(f"{where} {texts}: expected two effects, as stribeck@2,spring@2")
-    assert subject.beta is not None
+        raise OptionError(f"{where} {texts}: expected two effects, as stribeck@2,spring@2")
     return excitation.DiscriminationProblem(
         (effect_pair[0], effect_pair[1]), subject.beta, subject.sigma
     )
 
 
-def build_bounds(
-    robot: Robot,
-    compiled: CompiledModel,
-    limits: Mapping[str, Sequence[float]],
-    boxes: Mapping[str, Sequence[float]],
-    clearance: float | None = None,
-) -> excitation.MotionBounds:
-    """Returns the limits of the robot file, replaced by given ones.
+@dataclass(frozen=True, eq=False)
+class MotionChoice:
+    """The best of some motions.
 
-    Args:
-        robot: as loaded.
-        compiled: the same.
-        limits: as of `excite`.
-        boxes: as of `excite`.
-        clearance: as of `excite`.
-
-    Raises:
-        DataError: another number of values, or no number; a joint or frame that is not there.
-        RobotError: an empty range.
+    Attributes:
+        robot: name.
+        candidates: places of the motions.
+        choice: which, and how well each determines the parameters.
     """
-    coordinates = [joint.name for joint in compiled.spec.joints]
-    moving = [joint.name for joint in robot.moving_joints]
-    form = "lower, upper, speed, acceleration"
-    changes, torques = {}, {}
-    for name, numbers in limits.items():
-        values = _check_numbers("limits", name, numbers, moving, (4, 5), form)
-        changes[name] = Limits(*values[:4])
-        if len(values) == 5:
-            torques[name] = values[4]
-    every = simulation.collect_motion_limits(robot, changes)
-    of = {name: every[moving.index(name)] for name in moving}
-    lower, upper, speed, acceleration = np.array(
-        [dataclasses.astuple(of[name])[:4] for name in coordinates]
-    ).T
-    closure, home = compiled.spec.closure, None
-    passive: list[tuple[int, float, float]] = []
-    if closure is not None:
-        home = np.array(closure.home)[list(closure.actuated)]
-        stated = {**robot.limits, **changes}
-        passive = [
-            (place, stated[name].lower, stated[name].upper)
-            for place, name in enumerate(closure.variables)
-            if place not in closure.actuated and name in stated
+
+    robot: str
+    candidates: Sequence[str]
+    choice: excitation.MotionSubset
+
+    def format_lines(self) -> list[str]:
+        """Returns every motion with its condition number, then that of those chosen together."""
+        choice, lines = self.choice, []
+        for k, place in enumerate(self.candidates):
+            mark = "chosen  " if k in choice.places else "        "
+            lines.append(
+                f"{mark}{place}: condition number {choice.single_conditions[k]:.4g} by itself"
+            )
+        return [
+            *lines,
+            f"{len(choice.places)} chosen: condition number {choice.condition:.4g} together, all "
+            f"{len(self.candidates)} {choice.whole:.4g}, columns of length one",
         ]
-    corners = {
-        name: _check_numbers("boxes", name, numbers, moving, (6,), "x0, x1, y0, y1, z0, z1")
-        for name, numbers in boxes.items()
-    }
-    bounds = excitation.MotionBounds(
-        tuple(coordinates), lower, upper, speed, acceleration,
-        torque=np.array([torques.get(name, np.inf) for name in coordinates]),
-        boxes=tuple(
-            excitation.Box(name, moving.index(name), (x[0], x[2], x[4]), (x[1], x[3], x[5]))
-            for name, x in corners.items()
-        ),
-        passive=tuple(passive), home=home,
-        assumed=tuple(name for name in coordinates if name not in {**robot.limits, **changes}),
-    )  # fmt: skip
-    return add_clearance(robot, compiled, bounds, clearance)
+
+    def to_json(self) -> dict[str, Any]:
+        """Returns the same for machines."""
+        choice = self.choice
+        return {
+            "robot": self.robot,
+            "chosen_motions": [str(self.candidates[k]) for k in choice.places],
+            "condition_scaled": choice.condition,
+            "condition_scaled_of_all": choice.whole if math.isfinite(choice.whole) else None,
+            "single_conditions": [
+                value if math.isfinite(value) else None for value in choice.single_conditions
+            ],
+            "is_exhaustive": choice.is_exhaustive,
+        }
 
 
-def _check_numbers(
-    what: str, name: str, numbers: Sequence[float], names: list[str], counts: tuple[int, ...],
-    form: str,
-) -> list[float]:  # fmt: skip
-    """The numbers, if they are as many as expected and the row is there."""
-    if name not in names:
-        raise DataError(
-            f"{what}: no moving joint {name}{suggest_name(name, names)}; expected one of "
-            f"{', '.join(names)}"
-        )
-    values = [float(value) for value in numbers]
-    if len(values) not in counts or any(math.isnan(value) for value in values):
-        raise DataError(f"{what} of {name}: got {numbers}; expected {form}, numbers in SI units")
-    return values
-
-
-def check_motion(
-    robot: Robot, motion: str | Path, *, clearance: float = THRESHOLDS.link_clearance
-) -> excitation.ClosestApproach | None:
-    """Finds where a motion brings two links, or a link and a plane, closest together.
-
-    >>> check_motion(robot, "mon.parquet").pair  # its two links share a joint
-    ('base', '2')
-
-    Args:
-        robot: its [capsules] are what links fill; without, as `modeler excite` takes them.
-        motion: file of a motion or log, .csv or .parquet; commanded positions, if it has them.
-        clearance: m; pairs that are nearer in nearly all postures are left out.
-
-    Returns:
-        None if no two are left to look at.
-
-    Raises:
-        DataError: the file has no motion of this robot.
-    """
-    compiled = compile_model(generate(derive(robot)))
-    bounds = build_bounds(robot, compiled, {}, {}, clearance)
-    assert bounds.clearance is not None
+def choose_motions(subject: Subject, candidates: Sequence[str], count: int) -> MotionChoice:
+    """Chooses the motions that together determine the parameters best."""
+    compiled, columns = subject.compiled, subject.essential_columns
     names = [joint.name for joint in compiled.spec.joints]
-    return find_nearest_along(compiled, bounds.clearance, simulation.read_motion(motion, names))
+    essential = slice(None) if columns is None else columns
+    weights = 1.0 if subject.sigma is None else 1.0 / subject.sigma[:, None]
+    rows = []
+    for place in candidates:
+        motion = simulation.read_motion(place, names)
+        states = (motion.q, motion.qd, motion.qdd)
+        signals = excitation.compute_signals(compiled, states, motion.time)
+        phi = compiled.base_regressor(*states, signals)[:, :, essential]
+        rows.append((phi * weights).reshape(-1, phi.shape[2]))
+    return MotionChoice(subject.robot.name, candidates, excitation.choose_motions(rows, count))
 
 
 # Measurements by simulation.
@@ -587,7 +599,7 @@ def simulate(
     *,
     hide: Sequence[str | HiddenEffect] = (),
     motion: str | Path = "exciting",
-    progress: Callable[[float], None] | None = None,
+    reporter: Reporter = SILENT,
     **settings: Any,
 ) -> SimulatedLog:
     """Simulates a measurement of a robot under its controller; the result is used as a log.
@@ -602,16 +614,24 @@ def simulate(
         path: .parquet or .csv file to write; None: none.
         hide: physics that the machine has and the robot file lacks, as "stribeck@2:extra=3".
         motion: "exciting", "point-to-point", "one-joint", or a file of a motion or log.
-        progress: called with the share done, 0 to 1.
+        reporter: of the progress.
         settings: of `SimulationSettings`: duration [s], rate [Hz], seed, parameter_seed,
-            torque_noise [share of rms], encoder_counts, process_noise, controller, drive_gains ...
+            torque_noise [share of rms], encoder_counts, process_noise, controller, drive_gains,
+            also as texts "2=1.5" ...
 
     Raises:
         DataError: a setting that is none, or that cannot be; what the simulation refuses.
     """
     if path is not None:
         simulation.check_suffix(Path(path))
-    log = simulation.simulate(robot, build_settings(robot, hide, motion, settings), progress)
+    described = build_settings(robot, hide, motion, settings)
+    try:
+        with reporter.show_progress(f"simulating {robot.name}") as bar:
+            log = simulation.simulate(robot, described, bar)
+    except DataError as error:
+        if described.commanded is None:
+            raise
+        raise DataError(f"{motion}: {error}") from None
     if path is not None:
         simulation.write_log(Path(path), log)
     return log
@@ -632,9 +652,19 @@ def build_settings(
     hidden = tuple(
         simulation.parse_hidden_effect(each) if isinstance(each, str) else each for each in hide
     )
+    gains = options.get("drive_gains", {})
+    if not isinstance(gains, Mapping):
+        options = {**options, "drive_gains": simulation.parse_drive_gains(gains, robot)}
     if not str(motion).endswith((".csv", ".parquet")):
         return SimulationSettings(hidden=hidden, motion=str(motion), **options)
+    if "duration" in options:
+        raise OptionError(
+            f"{{--duration}}: got {options['duration']:g} s with {{--motion}} {motion}, which is "
+            "as long as it is; leave {--duration} out"
+        )
     rate = options.get("rate", SimulationSettings().rate)
+    if not (math.isfinite(rate) and rate > 0.0):
+        raise OptionError(f"{{--rate}}: got {rate:g}; expected a number above 0")
     joints = [joint.name for joint in robot.coordinates]
     commanded = simulation.resample_motion(simulation.read_motion(motion, joints), rate)
     return SimulationSettings(hidden=hidden, commanded=commanded, **options)

@@ -9,6 +9,7 @@ import numpy as np
 
 from modeler.codegen import Derivation, derive
 from modeler.core.errors import DataError, ModelerError
+from modeler.core.options import OptionError
 from modeler.core.result import Presentation, Result, register_presentations
 from modeler.core.table import Table, format_percent
 from modeler.estimation import IdentifiedModel
@@ -92,6 +93,22 @@ class PhysicalValues(Result):
             if shares[i] > 0.05
         )
 
+    def require_consistent(self) -> None:
+        """Raises an error if a known parameter contradicts the fit."""
+        wrong = sorted(
+            (row for row in self.tested if row.is_contradictory), key=lambda r: -abs(r.z)
+        )
+        if wrong:
+            contradictions = "; ".join(
+                f"{r.letter} = {r.known_value:g} given, {r.implied_value:.6g} +- "
+                f"{r.implied_sigma:.2g} follows ({abs(r.z):.1f} sigma)"
+                for r in wrong
+            )
+            raise OptionError(
+                f"{{--known}} contradicts the fit: {contradictions}; measure these again, or leave "
+                "one of them out"
+            )
+
 
 @dataclass(frozen=True, eq=False)
 class Physical(Result):
@@ -140,13 +157,26 @@ class Physical(Result):
             RobotError: a name that is none.
         """
         known_values = parse_known_values(known, self.system, "known")
-        for name in known_values.names:
-            if name not in known_values.values:
-                raise DataError(f"known: no value of {name}; expected {name}=VALUE, SI units")
+        self.check_known(known_values, near)
         hints = parse_known_values(near, self.system, "near")
         return self.evaluate_solution(
             self.derive_formulas(known_values), known_values, hints.values
         )
+
+    def check_known(self, known: KnownValues, near: str | None) -> None:
+        """Raises an error unless a model has values of all that is known, and a robot none."""
+        if self.fitted is None and (known.values or near):
+            option = "{--known}" if known.values else "{--near}"
+            raise OptionError(
+                f"{option}: got values, but {self.system.robot} is a robot without identified "
+                "ones; expected names alone, as am,bm, or a model file of `modeler fit`"
+            )
+        missing = [name for name in known.names if name not in known.values]
+        if self.fitted is not None and missing:
+            raise OptionError(
+                f"{{--known}}: no value of {', '.join(missing)}; expected {missing[0]}=VALUE, SI "
+                "units, for every known parameter of a model"
+            )
 
     def evaluate_solution(
         self, solution: ClosedSolution, known_values: KnownValues, near: Mapping[str, float]
@@ -172,6 +202,10 @@ class Physical(Result):
         self, size: int | None = None, progress: Callable[[float], None] | None = None
     ) -> KnownSets:
         """Finds all sets of `size` parameters that determine the others; None: the smallest."""
+        if size is not None and size < 1:
+            raise OptionError(
+                f"{{--sets}}: got {size}; expected 1 or more, or {{--sets}} alone for the smallest"
+            )
         return find_known_sets(self.system, size, progress or (lambda share: None))
 
     def rank_sets(self, candidate_sets: KnownSets, cad: KnownValues) -> tuple[RatedSet, ...]:
@@ -182,7 +216,9 @@ class Physical(Result):
         """
         missing = [x for x in self.system.letters if x not in cad.values]
         if missing:
-            raise DataError(f"--cad: no value of {', '.join(missing)}; expected all parameters")
+            raise OptionError(
+                f"{{--cad}}: no value of {', '.join(missing)}; expected all parameters"
+            )
         return rate_sets(self.system, candidate_sets.easiest_sets, cad.values)
 
     def read_cad(self, file: str | Path = NOMINAL) -> KnownValues:
@@ -199,7 +235,7 @@ class Physical(Result):
             DataError: of a robot.
         """
         cad_values = cad if isinstance(cad, KnownValues) else self.read_cad(cad)
-        fitted = self._require_fitted()
+        fitted = self._require_fitted("{--cad}: ")
         return compare_cad(
             self.system,
             fitted.data.tolist(),
@@ -213,10 +249,11 @@ class Physical(Result):
         """Found anew where it lands: rings of polynomials do not travel."""
         return _rebuild_physical, (self.derivation, self.system.source, self.fitted)
 
-    def _require_fitted(self) -> FittedSource:
+    def _require_fitted(self, where: str = "") -> FittedSource:
         if self.fitted is None:
-            raise DataError(
-                f"{self.system.robot}: a robot, with no identified values; expected a model"
+            raise OptionError(
+                f"{where}{self.system.robot} is a robot, with no identified values; expected a "
+                "model of `modeler fit`"
             )
         return self.fitted
 
@@ -272,14 +309,12 @@ def _compute_fitted_source(system: PhysicalSystem, model: IdentifiedModel) -> Fi
 
 def tabulate_values(values: PhysicalValues) -> Table:
     """Returns the table of value, sigma and source of every parameter."""
-    derived, rows = values.derived, []
+    derived, doubts, rows = values.derived, values.doubts, []
     for k, letter in enumerate(derived.letters):
-        unit, is_identified = UNITS[values.system.kinds[letter]], letter not in values.doubts
+        unit, is_identified = UNITS[values.system.kinds[letter]], letter not in doubts
         value, sigma = float(derived.values[k]), float(derived.sigmas[k])
-        rows.append(
-            (letter, value, sigma, unit, values.describe_sources(k)) if is_identified
-            else (letter, None, None, unit, values.doubts[letter])
-        )  # fmt: skip
+        cells = (value, sigma, unit, values.describe_sources(k))
+        rows.append((letter, *(cells if is_identified else (None, None, unit, doubts[letter]))))
     title = f"{values.system.robot}: physical parameters"
     return Table.build(title, "parameter, value, sigma, unit, mostly from", rows)
 
@@ -295,13 +330,11 @@ def _summarise_values(values: PhysicalValues) -> str:
 
 def _summarise_parameters(parameters: Physical) -> str:
     system, easiest = parameters.system, find_easiest_set(parameters.system)
-    first = (f"{system.robot}: {len(system.data)} identified quantities, {len(system.letters)} "
-             f"physical parameters with an effect")  # fmt: skip
-    return "\n".join([
-        first,
-        f"at least {count_smallest_set(system)} must be known that all others follow: "
-        f"{','.join(easiest)}",
-    ])  # fmt: skip
+    return (
+        f"{system.robot}: {len(system.data)} identified quantities, {len(system.letters)} "
+        f"physical parameters with an effect\nat least {count_smallest_set(system)} must be known "
+        f"that all others follow: {','.join(easiest)}"
+    )
 
 
 def _tabulate_symbols(parameters: Physical) -> Table:
@@ -310,9 +343,14 @@ def _tabulate_symbols(parameters: Physical) -> Table:
     return Table.build(f"{system.robot}: physical parameters", "parameter, kind, unit", rows)
 
 
-register_presentations({
-    PhysicalValues: Presentation("a set of physical parameters", _summarise_values,
-                                 lambda v: {"values": lambda: tabulate_values(v)}),
-    Physical: Presentation("a system of physical parameters", _summarise_parameters,
-                           lambda p: {"parameters": lambda: _tabulate_symbols(p)}),
-})  # fmt: skip
+_OF_VALUES = Presentation(
+    "a set of physical parameters",
+    _summarise_values,
+    lambda values: {"values": lambda: tabulate_values(values)},
+)
+_OF_SYMBOLS = Presentation(
+    "a system of physical parameters",
+    _summarise_parameters,
+    lambda parameters: {"parameters": lambda: _tabulate_symbols(parameters)},
+)
+register_presentations({PhysicalValues: _OF_VALUES, Physical: _OF_SYMBOLS})

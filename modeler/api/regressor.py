@@ -28,7 +28,7 @@ from modeler.api.workflow import (
     read_logs,
 )
 from modeler.core.errors import DataError
-from modeler.core.fit_options import FitOptions
+from modeler.core.options import FitOptions
 from modeler.logs import LEAST_ROWS
 from modeler.robot import Robot
 from modeler.runtime import CompiledModel

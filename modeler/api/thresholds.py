@@ -21,6 +21,16 @@ class Thresholds:
     """Share of the plain mapping's error that a guess by range may have; no study."""
     link_clearance: float = 0.01
     """m between links of a robot with [capsules]; a convention."""
+    next_log_rate: float = 1000.0
+    """Hz of the log for which Python forecasts what a motion adds; a convention."""
+    max_rate: float = 1e5
+    """Hz of a table of a motion; no study."""
+    max_determined_sigma: float = 10.0
+    """Percent of sigma below which a parameter counts as determined; papers: 10."""
+    named_parameters: int = 3
+    """Worst determined parameters that are named."""
+    min_logs_for_processes: int = 32
+    """Logs from which several processes are worth their start; no study."""
 
 
 THRESHOLDS = Thresholds()

@@ -2,7 +2,7 @@
 
 import dataclasses
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -11,10 +11,12 @@ from typing import Any, TypeVar
 from modeler import regression
 from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range, read_mapped_log
 from modeler.codegen import Derivation as Derivation, derive as derive, generate as generate_robot
-from modeler.core.choices import ABOUT, ALSO, Also, Machine, Precision, list_builtin_robots
-from modeler.core.errors import DataError, ManifestError
+from modeler.core.choices import ABOUT, list_builtin_robots
+from modeler.core.errors import ManifestError
 from modeler.core.files import write_atomically
+from modeler.core.json import select_attributes
 from modeler.core.manifest import EmittedModule, ModuleSpec
+from modeler.core.options import CONTROLLED, GenerateOptions, OptionError
 from modeler.core.table import Table
 from modeler.effects import CATALOGUE
 from modeler.estimation import (
@@ -64,11 +66,6 @@ Steps = Callable[[str], AbstractContextManager[None]]
 """Called with the title of a step, which lasts as long as the context."""
 
 
-def ignore_step(title: str) -> AbstractContextManager[None]:
-    """Returns a context for a step that reports nothing."""
-    return nullcontext()
-
-
 def define_effect(robot: Robot, name: str, **definition: Any) -> Robot:
     """Returns the robot with the definition of an effect that the catalogue lacks.
 
@@ -94,13 +91,9 @@ def define_effect(robot: Robot, name: str, **definition: Any) -> Robot:
 def generate(
     source: Derivation | IdentifiedModel,
     folder: str | Path | None = None,
+    options: GenerateOptions = GenerateOptions(),
+    *,
     force: bool = False,
-    precision: Precision = "double",
-    cuda: bool = False,
-    frames: Sequence[str] = (),
-    only: Sequence[str] = (),
-    also: Sequence[Also] = (),
-    measure: Machine | None = None,
 ) -> EmittedModule:
     """Generates the C module of a robot; of a model with functions that have its values.
 
@@ -110,15 +103,8 @@ def generate(
     Args:
         source: what was derived, or a fitted model.
         folder: the module is written there if it is given.
+        options: precision, and what is there besides.
         force: write also over files that no earlier run wrote, or that were edited since.
-        precision: `double`, or `single`: then all numbers of the C are `float`.
-        cuda: add the base regressor in CUDA, of a robot without loops.
-        frames: rows, or links of [frames], whose pose, Jacobian and twist a controller reads
-            besides those of the tool.
-        only: names of the functions that are wanted, without the robot's; empty: all.
-        also: `vectors`, 50 states by which a port qualifies itself; `structured_text`, function
-            blocks of a robot without loops; `a2l`, the parameter set for calibration tools.
-        measure: add what calls cost on this machine or a Cortex-M: `cost.json`.
 
     Raises:
         BuildError: the compiler for that machine is missing.
@@ -131,12 +117,13 @@ def generate(
     else:
         derivation, fitted = emit_model(source)[0], model_file.build_fitted_spec(source)
     control = None
-    if frames or only or also or measure:
+    if options != GenerateOptions(options.precision, options.cuda):
         from modeler.codegen import Control  # who fits need not wait for it
 
-        control = Control(tuple(frames), tuple(only), **{name: name in also for name in ALSO})
+        control = Control(**select_attributes(options, CONTROLLED))
     return generate_robot(
-        derivation, folder, force, fitted, precision, cuda, control, measure=measure
+        *(derivation, folder, force, fitted, options.precision, options.cuda, control),
+        measure=options.measure,
     )
 
 
@@ -256,10 +243,10 @@ def check_fits_memory(places: Sequence[AnyLog], what: str) -> None:
         DataError: they have more rows than that.
     """
     if are_too_long(places):
-        raise DataError(
+        raise OptionError(
             f"fit: {what} keeps all rows in memory; got {count_rows(places)} rows, expected "
             f"at most {regression.MOST_WHOLE}; give a part of the log, FILE@START:END, or take "
-            f"--method {' or '.join(OF_TRIANGLES)}, which read logs of any length"
+            f"{{--method}} {' or '.join(OF_TRIANGLES)}, which read logs of any length"
         )
 
 
@@ -410,11 +397,11 @@ def effects(robot: Robot | None = None) -> Table:
     'Fs'
     """
     known = CATALOGUE if robot is None else robot.catalogue
-    rows = [
-        (effect.id, effect.title, effect.equation,
-         ", ".join(column.prefix for column in effect.columns), ", ".join(effect.aliases))
-        for effect in known
-    ]  # fmt: skip
+    rows = []
+    for effect in known:
+        prefixes = ", ".join(column.prefix for column in effect.columns)
+        aliases = ", ".join(effect.aliases)
+        rows.append((effect.id, effect.title, effect.equation, prefixes, aliases))
     return Table.build("physical effects", "effect, title, equation, parameters, also called", rows)
 
 
@@ -438,4 +425,4 @@ def load_on_gpu(derivation: Derivation) -> GpuModel:
         BuildError: no CuPy, no graphics processor, or the compiler refused.
         EmitError: the robot has loops.
     """
-    return load_gpu(generate(derivation, cuda=True))
+    return load_gpu(generate(derivation, options=GenerateOptions(cuda=True)))

@@ -15,7 +15,7 @@ from modeler.cli.parser import (
     find_option,
 )
 from modeler.core.choices import ABOUT, list_papers
-from modeler.core.fit_options import METHODS
+from modeler.core.options import METHODS
 from modeler.effects import CATALOGUE as EFFECTS
 
 _BASH = """\

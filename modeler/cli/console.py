@@ -42,9 +42,17 @@ _FOR_PROGRAMS: ContextVar[bool] = ContextVar("for programs", default=False)
 """Whether progress is reported in lines for programs, in place of a bar: `--progress lines`."""
 
 
-_PACKAGES = (
-    "numpy", "scipy", "sympy", "python-flint", "casadi", "cffi", "pyarrow", "matplotlib", "rich",
-)  # fmt: skip
+_PACKAGES = [
+    "numpy",
+    "scipy",
+    "sympy",
+    "python-flint",
+    "casadi",
+    "cffi",
+    "pyarrow",
+    "matplotlib",
+    "rich",
+]
 
 
 def get_verbosity() -> Verbosity:
@@ -186,6 +194,15 @@ def draw_page(place: str | None, page: "Callable[[], Page]") -> None:
         with show_activity("drawing the page"):
             written = write_page(Path(place), page())
         print_result(f"written: {written}")
+
+
+def draw_result(args: argparse.Namespace, build_page: "Callable[[], Page]") -> None:
+    """Writes the page of a result and its pictures, as far as places for them are given."""
+    if args.report is not None or args.picture is not None:
+        with show_activity("drawing"):
+            page = build_page()
+        draw_page(args.report, lambda: page)
+        draw_pictures(args.picture, page.collect_pictures)
 
 
 def draw_pictures(place: str | None, pictures: "Callable[[], Sequence[Picture]]") -> None:

@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from modeler import papers
+from modeler.api.checks import compare_with_provenance
 from modeler.api.fitting import fit
 from modeler.api.workflow import compile_model, derive, generate, load, observe, read_logs
-from modeler.cli.compare import compare_with_findings
 from modeler.cli.console import (
     Json,
     draw_pictures,
@@ -110,15 +110,14 @@ def _compare_and_draw(
     model: IdentifiedModel, compiled: CompiledModel, out: Path, log: Path
 ) -> None:
     with show_activity("predicting"):
-        comparison, provenance, _ = compare_with_findings(model, [str(log)], compiled)
+        run = compare_with_provenance(model, [str(log)])
+    comparison = run.comparison
     print_lines([*comparison.summary().splitlines(), *write_verdict(comparison)], "   ")
     with show_activity("drawing the page"):
         place, fitted = str(out / "model.json"), [str(out / "train.parquet")]
         following = pages.suggest_after_compare(place, fitted, [str(log)], held_out=True)
         origin = pages.Origin(place, comparison.prediction.logs, True, [following])
-        pages.write_page(
-            out / "compare.html", build_comparison_page(comparison, provenance, origin)
-        )
+        pages.write_page(out / "compare.html", build_comparison_page(comparison, run.lines, origin))
     with show_progress("drawing pictures") as bar:
         write_files(out / "pictures", draw_all_pictures(comparison), bar)
 

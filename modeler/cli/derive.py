@@ -19,14 +19,15 @@ from modeler.cli.console import (
     show_activity,
     show_next,
 )
-from modeler.cli.lists import read_robot_with_effects, resolve_robot
+from modeler.cli.lists import read_robot_or_model, read_robot_with_effects, resolve_robot
 from modeler.cli.parser import FEW_JOINTS, Form
 from modeler.cli.thresholds import THRESHOLDS
 from modeler.codegen import Derivation, derive, generate
-from modeler.core.choices import ALSO, Also
-from modeler.core.errors import DataError, ModelerError, RobotError
+from modeler.core.errors import ModelerError, RobotError
 from modeler.core.files import write_atomically
 from modeler.core.formula import escape_latex
+from modeler.core.json import select_attributes
+from modeler.core.options import CONTROLLED, GenerateOptions
 from modeler.derivation import (
     LinkColumn,
     SymbolicModel,
@@ -34,10 +35,10 @@ from modeler.derivation import (
     evaluate_regressor,
     relations,
 )
+from modeler.robot import Robot
 
 if TYPE_CHECKING:
     from modeler.core.manifest import FunctionSpec
-    from modeler.estimation import IdentifiedModel
     from modeler.formulas import CoefficientTable
 
 # Words around printed formulas: as they are, as comments of LaTeX, or as a whole document.
@@ -117,22 +118,6 @@ def _allow_breaks(text: str) -> str:
 # What `modeler derive` was requested besides relations and proof, and what it refuses.
 
 
-def check_request(args: argparse.Namespace) -> None:
-    """Refuses options that would do nothing.
-
-    Raises:
-        ModelerError: they stand without what they change.
-    """
-    if args.nonzero and not (args.closed_form or args.regressor or args.blocks):
-        raise ModelerError(
-            "--nonzero changes nothing by itself; add --closed-form, --regressor or --blocks"
-        )
-    if args.expanded and not (args.closed_form or args.terms):
-        raise ModelerError("--expanded changes nothing by itself; add --closed-form or --terms")
-    if args.document and args.format != "latex":
-        raise ModelerError("--document is a whole page of LaTeX; add --format latex")
-
-
 def check_loops(args: argparse.Namespace, derivation: Derivation) -> None:
     """Refuses what has no meaning for loops.
 
@@ -165,7 +150,8 @@ _FORMS = ("closed_form", "regressor", "blocks", "energy", "kane")
 
 def run_derive(args: argparse.Namespace) -> Json:
     """Prints relations, proof, and for small robots the coefficients."""
-    check_request(args)
+    if args.document and args.format != "latex":
+        raise ModelerError("--document is a whole page of LaTeX; add --format latex")
     robot = read_robot_with_effects(args) if args.cut_loops else None
     if robot is not None:
         # the tree of loops that are not closed: every joint has a torque
@@ -391,27 +377,22 @@ def _describe_coefficients(table: "CoefficientTable") -> list[str]:
 
 def run_generate(args: argparse.Namespace) -> Json:
     """Writes the folder and says what is in it."""
-    kinds = {name: vars(args)[name] for name in ("precision", "cuda", "measure")}
-    also: dict[Also, bool] = {name: vars(args)[name] for name in ALSO}
-    only = tuple(name.strip() for name in args.only.split(",")) if args.only else ()
-    model = _read_model(args)
-    if model is not None:
-        from modeler.api.workflow import generate as generate_of_model
-
-        with show_activity(f"deriving {model.spec.robot}"):
-            emitted = generate_of_model(
-                model, args.out, args.force, frames=args.frame, only=only,
-                also=[name for name in ALSO if also[name]], **kinds,
-            )  # fmt: skip
-        for line in model.warning:
-            print_error(line)
-    else:
+    options = GenerateOptions.from_names(vars(args))
+    thing = read_robot_or_model(args)
+    if isinstance(thing, Robot):
         from modeler.codegen import Control
 
-        robot = resolve_robot(args)
-        with show_activity(f"deriving {robot.name}"):
-            control = Control(tuple(args.frame), only, **also)
-            emitted = generate(derive(robot), args.out, args.force, control=control, **kinds)
+        with show_activity(f"deriving {thing.name}"):
+            control = Control(**select_attributes(options, CONTROLLED))
+            kinds = select_attributes(options, "precision cuda measure")
+            emitted = generate(derive(thing), args.out, args.force, control=control, **kinds)
+    else:
+        from modeler.api.workflow import generate as generate_of_model
+
+        with show_activity(f"deriving {thing.spec.robot}"):
+            emitted = generate_of_model(thing, args.out, options, force=args.force)
+        for line in thing.warning:
+            print_error(line)
     spec, fitted = emitted.spec, emitted.spec.fitted
     single = ", single precision" if spec.precision == "single" else ""
     print_result(f"{spec.robot}: {len(spec.base)} base parameters{single}, written to {args.out}:")
@@ -439,20 +420,6 @@ def run_generate(args: argparse.Namespace) -> Json:
         }
     show_next([f"make -C {shlex.quote(args.out)} check"])
     return result
-
-
-def _read_model(args: argparse.Namespace) -> "IdentifiedModel | None":
-    """None of a robot."""
-    if not args.robot.endswith(".json"):
-        return None
-    if args.effects is not None:
-        raise DataError(
-            f"--effects: got it with {args.robot}, a model, which has the effects that it was "
-            "fitted with; leave --effects out, or fit the robot with them"
-        )
-    from modeler.estimation import load_model  # a robot needs no fits
-
-    return load_model(args.robot)
 
 
 def _describe_function(function: "FunctionSpec") -> str:

@@ -4,16 +4,25 @@ import argparse
 import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from modeler.cli.console import Json, print_lines, print_note, print_result, show_activity
+from modeler.cli.console import (
+    Json,
+    print_lines,
+    print_note,
+    print_result,
+    show_activity,
+    show_progress,
+)
 from modeler.cli.parser import describe_unknown
 from modeler.cli.places import Output, check_places
 from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.choices import ABOUT, OTHER_PROGRAMS, list_builtin_robots
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import check_writable, write_all_without_overwriting
+from modeler.core.jobs import Reporter
 from modeler.core.json import select_attributes
+from modeler.core.options import OptionError, Options
 from modeler.core.toml_cells import quote_value
 from modeler.effects import CATALOGUE, Effect, Form, find_effect
 from modeler.formats import read_robot
@@ -27,6 +36,11 @@ from modeler.robot import (
 
 if TYPE_CHECKING:
     from modeler.estimation import IdentifiedModel
+
+O = TypeVar("O", bound=Options)
+
+REPORTER = Reporter(show_activity, show_progress, print_note)
+"""Of what an API function does, on the terminal."""
 
 # The signature of an effect: torque against what it depends on.
 
@@ -96,6 +110,24 @@ def resolve_robot(args: argparse.Namespace) -> Robot:
     return home.write_to_text(robot)
 
 
+def read_robot_or_model(args: argparse.Namespace) -> "Robot | IdentifiedModel":
+    """Reads what a command takes as ROBOT|MODEL; the model has the effects of its fit.
+
+    Raises:
+        DataError: other effects are wanted of a model.
+    """
+    if not args.robot.endswith(".json"):
+        return resolve_robot(args)
+    if args.effects is not None:
+        raise OptionError(
+            f"{{--effects}}: of a robot file only; {args.robot} is a model, which has those that "
+            "it was fitted with; leave {--effects} out, or fit the robot with them"
+        )
+    from modeler.estimation import load_model  # a robot needs no fits
+
+    return load_model(args.robot)
+
+
 def check_own_file(robot: str, what: str) -> None:
     """Raises an error if --write cannot write into the robot file."""
     if robot in list_builtin_robots():
@@ -113,14 +145,15 @@ def check_own_file(robot: str, what: str) -> None:
         check_writable(path)
 
 
-def apply_stated_options(args: argparse.Namespace, head: str, stated: Mapping[str, Any]) -> None:
-    """Applies the options of the robot file that were not typed."""
+def read_options(
+    args: argparse.Namespace, kind: type[O], head: str, stated: Mapping[str, Any]
+) -> O:
+    """Returns the options of a command: what was typed, over what the robot file states."""
     applied = {name: value for name, value in stated.items() if name not in args.typed}
-    for name, value in applied.items():
-        setattr(args, name, value)
     if applied:
         listed = ", ".join(f"{name} = {quote_value(value)}" for name, value in applied.items())
         print_note(f"by [{head}] of the robot file: {listed}")
+    return kind.from_names({**vars(args), **applied})
 
 
 def read_robot_with_effects(args: argparse.Namespace) -> Robot:
@@ -176,11 +209,7 @@ def run_effects(args: argparse.Namespace) -> Json:
         robot = parse_robot_text(model.robot_text, f"{args.robot}, robot")
     elif args.robot is not None:
         robot = read_robot(args.robot)
-    if args.export is not None:
-        if robot is None:
-            raise DataError(
-                f"--export {args.export}: expected --robot too, a robot or model that has it"
-            )
+    if args.export is not None and robot is not None:
         return _export_effect(args, robot, model)
     known = CATALOGUE if robot is None else robot.catalogue
     chosen = known
@@ -233,9 +262,8 @@ def _export_effect(args: argparse.Namespace, robot: Robot, model: "IdentifiedMod
 def run_estimators(args: argparse.Namespace) -> Json:
     """Prints the list, or some of it."""
     method_ids = list(ABOUT) if args.methods is None else args.methods.split(",")
-    for name in method_ids:
-        if name not in ABOUT:
-            raise DataError(f"estimators: {describe_unknown(name, list(ABOUT))}")
+    if unknown := [name for name in method_ids if name not in ABOUT]:
+        raise DataError(f"estimators: {describe_unknown(unknown[0], list(ABOUT))}")
     chosen = [about for about in ABOUT.values() if about.id in method_ids]
     for about in chosen:
         print_result(f"{about.id:<10} {about.title}")

@@ -21,7 +21,7 @@ from modeler.api.workflow import are_long, are_too_long
 from modeler.cli.console import Json, print_lines, print_result, show_activity, write_pictures
 from modeler.cli.lists import check_own_file, read_robot_with_notes
 from modeler.cli.thresholds import THRESHOLDS
-from modeler.core.errors import BuildError, DataError, ModelerError, flatten_message
+from modeler.core.errors import BuildError, ModelerError, flatten_message
 from modeler.core.files import write_atomically
 from modeler.core.json import convert_to_plain
 from modeler.core.table import align_columns, format_percent
@@ -51,8 +51,6 @@ def run_log(args: argparse.Namespace) -> Json:
     """Prints what the log holds, its warnings, and a [log] to start from."""
     compiled = described = uncompiled = None
     if args.write:
-        if args.robot is None:
-            raise DataError("--write: got no robot file to write into; expected --robot FILE.toml")
         check_own_file(args.robot, "columns of logs")
     if args.robot is not None:
         robot = read_robot_with_notes(args.robot)
@@ -65,9 +63,11 @@ def run_log(args: argparse.Namespace) -> Json:
                     raise
                 uncompiled = error
     mapping = (
-        parse_map_options(args.map) if described is None else build_log_map(described, args.map)
+        parse_map_options(args.mapping)
+        if described is None
+        else build_log_map(described, args.mapping)
     )
-    inspection = inspect_log(args.log, described, args.map)
+    inspection = inspect_log(args.log, described, args.mapping)
     doubts = [*inspection.warnings]
     if uncompiled is not None:
         doubts.append(f"not tried by a fit of {robot.name}: {flatten_message(str(uncompiled))}")
@@ -77,9 +77,10 @@ def run_log(args: argparse.Namespace) -> Json:
         sure = merge_suggested_map(inspection.suggested_map_without_ranges, mapping)
         ranged = merge_suggested_map(inspection.suggested_map, mapping)
         mapping_fit, _, stands = choose_mapping(
-            lambda names: _fit_mapping(compiled, args.log, names, inspection), sure,
+            lambda names: _fit_mapping(compiled, args.log, names, inspection),
+            sure,
             None if inspection.suggested_map == inspection.suggested_map_without_ranges else ranged,
-        )  # fmt: skip
+        )
         if mapping_fit.data_report is not None:
             noise, bands = mapping_fit.data_report.noise, mapping_fit.data_report.bands
             marks = keep_longest([*marks, *mapping_fit.data_report.logs[0].collect_marks()])
@@ -94,7 +95,7 @@ def run_log(args: argparse.Namespace) -> Json:
     print_lines(_format_inspection(inspection, doubts, noise_lines))
     places = []
     if args.write and compiled is not None:
-        guess_map = dataclasses.replace(parse_map_options(args.map), auto=True)
+        guess_map = dataclasses.replace(parse_map_options(args.mapping), auto=True)
         table = build_log_maps(compiled, [args.log], guess_map)[0].build_table(compiled.spec.joints)
         before = " in place of its own" if robot.log else ""
         write_atomically(Path(args.robot), replace_log_table(robot.text, table))

@@ -12,15 +12,16 @@ from difflib import get_close_matches
 from functools import cache, partial
 from importlib import import_module
 from itertools import takewhile
-from typing import Any, Literal, NoReturn, get_args
+from types import MappingProxyType, NoneType
+from typing import Any, Literal, NoReturn, get_args, get_origin
 
 from modeler import __version__
 from modeler.cli import places
 from modeler.cli.console import Verbosity, write_stdout
-from modeler.core import choices
+from modeler.core import options
 from modeler.core.choices import ABOUT, CONVENTIONS, EFFECTS, SIMULATED, TEMPLATES, list_papers
 from modeler.core.files import locate_resources
-from modeler.core.fit_options import METHODS, PARALLEL_FILTER, FitOptions
+from modeler.core.options import METHODS, Options
 
 Form = Literal["text", "latex", "markdown"]
 """How relations are printed."""
@@ -66,16 +67,16 @@ class Methods(places.Word):
 
 # The table of commands.
 
-_TYPES = {"int": int, "float": float, "Methods": Methods}
-_CHOICES = {
-    "conventions": CONVENTIONS,
-    "forms": sorted(get_args(Form)),
-    "machines": get_args(choices.Machine),
-    "precisions": get_args(choices.Precision),
-    "templates": TEMPLATES,
-}
-_FIT_CHOICES = {"derivatives": get_args(choices.Derivatives), "model": get_args(choices.ModelKind)}
+
+def parse_names(text: str) -> list[str]:
+    """Parses a list of names with commas between."""
+    return [name for part in text.split(",") if (name := part.strip())]
+
+
+_TYPES = {"int": int, "float": float, "Methods": Methods, "Names": parse_names}
+_CHOICES = {"conventions": CONVENTIONS, "forms": sorted(get_args(Form)), "templates": TEMPLATES}
 _IN_WRITTEN, _IN_LOGS = (places.Output, places.OutputFolder), (places.LogFile, places.MapWord)
+_RULES = ("needs", "excludes", "required_without")
 _WRITING = ("--json", "--open", "--force", "--write")
 
 
@@ -88,7 +89,6 @@ def _read_table() -> dict[str, Any]:
         "effects": ", ".join(EFFECTS),
         "few_joints": FEW_JOINTS,
         "papers": ", ".join(list_papers()),
-        "parallel": PARALLEL_FILTER,
     }
     return table
 
@@ -113,7 +113,7 @@ def _build_settings(name: str, entry: Any) -> dict[str, Any]:
     entry = table["shared"][name] if entry is True else entry
     if isinstance(entry, str):
         entry = {"action": "store_true", "help": entry}
-    settings = dict(entry)
+    settings = {name: value for name, value in entry.items() if name not in _RULES}
     text = settings.pop("help", argparse.SUPPRESS)
     text = text if text == argparse.SUPPRESS else text.format(**table["texts"])
     if settings.pop("either", False):
@@ -133,28 +133,35 @@ def _build_settings(name: str, entry: Any) -> dict[str, Any]:
     return {**settings, "help": text}
 
 
-def _describe_fields(group: str) -> dict[str, Any]:
-    """Builds the options of `FitOptions` in a group, as entries of the table."""
-    entries: dict[str, Any] = {}
-    for each in fields(FitOptions):
-        about = each.metadata
-        if about["group"] != group:
-            continue
-        entry: Any = {"help": about["help"], "default": each.default}
-        if each.name in _FIT_CHOICES:
-            entry["choices"] = _FIT_CHOICES[each.name]
-        elif isinstance(each.default, bool):
-            entry = about["help"]
-        elif each.name == "method":
-            entry |= {"type": "Methods", "metavar": "METHOD[,METHOD...]"}
-            entry["help"] += (
-                f"; several with commas between, or {ALL}: compared on the same rows; `modeler "
-                "estimators` says when each is the wrong one (default %(default)s)"
-            )
-        else:
-            entry |= {"type": "int" if about["unit"] == "N" else "float", "metavar": about["unit"]}
-        entries["--" + each.name.replace("_", "-")] = entry
-    return entries
+def _describe_fields(kind: type[Options]) -> dict[str, dict[str, Any]]:
+    """Builds the options of a class as entries of the table, by the group of the help."""
+    title, groups = "", dict[str, dict[str, Any]]({"": {}})
+    for each in fields(kind):
+        about, title = each.metadata, kind.groups.get(each.name, title)
+        entry = {"help": about["help"], "needs": about["needs"], "dest": each.name}
+        entry |= _describe_type(each.type)
+        if about["kind"]:
+            entry |= {"type": about["kind"], "repeated": False}
+        if "type" in entry:
+            entry["metavar"] = about["unit"]
+        if not entry.get("repeated") and each.default is not False:
+            entry["default"] = each.default
+        word = about["word"] or "--" + each.name.replace("_", "-")
+        groups.setdefault(title, {})[word] = entry
+    return groups
+
+
+def _describe_type(kind: Any) -> dict[str, Any]:
+    """Builds what the table says of a type: a flag, words to choose from, a number, a text."""
+    if NoneType in get_args(kind):
+        kind = get_args(kind)[0]
+    if kind is bool:
+        return {"action": "store_true"}
+    if get_origin(kind) is Literal:
+        return {"choices": get_args(kind)}
+    if get_origin(kind) is tuple:
+        return {"type": "Word", "repeated": True}
+    return {"type": kind.__name__ if kind in (int, float) else "Word"}
 
 
 def _find_title(name: str, kind: Any) -> str | None:
@@ -180,10 +187,11 @@ def _add_command(commands: Any, name: str, command: Mapping[str, Any]) -> None:
     json["help"] = f"{command.get('json', 'write the result for machines')}; - for stdout"
     arguments = {**command.get("arguments", {}), "--json": json}
     groups = {title: dict(entries) for title, entries in command.get("groups", {}).items()}
-    if name == "fit":
-        parser.find_mistake = _find_missing_model
-        arguments |= _describe_fields("")
-        groups["processing"] |= _describe_fields("processing")
+    if "options" in command:
+        declared = _describe_fields(getattr(options, command["options"]))
+        arguments |= declared.pop("")
+        for heading, entries in declared.items():
+            groups[heading] = {**entries, **groups.get(heading, {})}
     titled: dict[str, dict[str, Any]] = {"logs": {}, "what is written": {}}
     for word, entry in arguments.items():
         settings = _build_settings(word, entry)
@@ -193,18 +201,34 @@ def _add_command(commands: Any, name: str, command: Mapping[str, Any]) -> None:
         else:
             titled[title][word] = entry
     order = {"logs": titled["logs"], **groups, "what is written": titled["what is written"]}
-    for title, entries in order.items():
+    for heading, entries in order.items():
         if entries:
-            group = parser.add_argument_group(title, entries.pop("text", None))
+            group = parser.add_argument_group(heading, entries.pop("text", None))
             for word, entry in entries.items():
                 group.add_argument(word, **_build_settings(word, entry))
+    merged = {word: entry for each in (arguments, *groups.values()) for word, entry in each.items()}
+    _set_rules(parser, merged)
     parser.set_defaults(load=partial(_import_run, command["run"]))
 
 
-def _find_missing_model(args: argparse.Namespace) -> str:
-    """A model is written of one method, and of several none."""
-    alone = args.out is None and not args.method.is_several
-    return "the following arguments are required: --out" if alone else ""
+def _set_rules(parser: "_Parser", entries: Mapping[str, Any]) -> None:
+    """Sets what the options of a command need and exclude, and how a message writes each."""
+    by_word = parser._option_string_actions
+    ruled = {
+        by_word[word].dest: entry
+        for word, entry in entries.items()
+        if word in by_word and isinstance(entry, dict)
+    }
+    parser.required = {
+        name: entry["required_without"]
+        for name, entry in ruled.items()
+        if "required_without" in entry
+    }
+    rules = [(name, e.get("needs", ()), e.get("excludes", ())) for name, e in ruled.items()]
+    written = {
+        a.dest: a.option_strings[0] if a.option_strings else a.metavar for a in parser._actions
+    }
+    parser.set_defaults(rules=rules, option_words=written)
 
 
 def _import_run(place: str) -> Run:
@@ -219,8 +243,8 @@ def _import_run(place: str) -> Run:
 class _Parser(argparse.ArgumentParser):
     """Parses one command, or all of them; help is written as a result is."""
 
-    find_mistake: Callable[[argparse.Namespace], str] | None = None
-    """Describes what is wrong with a line that argparse takes; "" for nothing."""
+    required: Mapping[str, Sequence[str]] = MappingProxyType({})
+    """Options that are required unless one of these others is given."""
 
     _stated: str | None = None
     _intermixed = False  # argparse parses twice: options, then arguments
@@ -257,8 +281,12 @@ class _Parser(argparse.ArgumentParser):
                 self._refuse_option(word)
         if rest:
             self.error(f"got {' '.join(rest)} as well; expected no more arguments")
-        if self.find_mistake is not None and (mistake := self.find_mistake(arguments)):
-            self.error(mistake)
+        for name, others in self.required.items():
+            given = (
+                getattr(value, "is_several", value) for value in map(vars(arguments).get, others)
+            )
+            if getattr(arguments, name) is None and not any(given):
+                self.error(f"the following arguments are required: --{name}")
         typed = (find_option(self, word) for word in words)
         arguments.typed = frozenset(action.dest for action in typed if action is not None)
         return arguments, rest

@@ -16,23 +16,15 @@ from modeler.cli.console import (
 from modeler.cli.lists import read_robot_with_notes
 from modeler.cli.thresholds import THRESHOLDS
 from modeler.codegen import derive
-from modeler.core.errors import DataError
 from modeler.core.json import select_attributes
 from modeler.core.table import format_percent
 from modeler.estimation import load_model
 
-_KINDS = {"mass": "masses", "length": "lengths", "centre": "mass centres", "inertia": "inertias",
-          "rotor inertia": "rotor inertias"}  # fmt: skip
+_PLURALS = {"mass": "masses", "centre": "mass centres"}  # of kinds; others take an s
 
 
 def run_physical(args: argparse.Namespace) -> Json:
     """Prints what was requested; what there is to know if nothing was."""
-    if args.near is not None and args.known is None:
-        raise DataError("--near: chooses between roots that --known leaves; add --known LIST")
-    if args.sets is not None and args.sets is not True and args.sets < 1:
-        raise DataError(
-            f"--sets: got {args.sets}; expected 1 or more, or --sets alone for the smallest"
-        )
     model = load_model(args.source) if Path(args.source).suffix.lower() == ".json" else None
     thing = derive(read_robot_with_notes(args.source)) if model is None else model
     with show_activity(f"physical parameters of {args.source}"):
@@ -47,11 +39,6 @@ def run_physical(args: argparse.Namespace) -> Json:
     if args.sets is not None:
         result["sets"] = _print_sets(subject, None if args.sets is True else args.sets, cad)
     elif cad is not None:
-        if subject.fitted is None:
-            raise DataError(
-                f"--cad: {args.source} is a robot, with no identified values; expected a model "
-                "file of `modeler fit`, or --sets"
-            )
         result["cad"] = _print_cad_comparison(subject, cad)
     if args.known is None and args.sets is None and args.cad is None:
         result |= _print_overview(system, args.source, model is not None)
@@ -65,15 +52,15 @@ def _print_overview(system: formulas.PhysicalSystem, source: str, fitted: bool) 
         f"{system.robot}: {len(system.data)} identified quantities, {len(system.letters)} physical "
         f"parameters with an effect, {len(system.vanishing)} without"
     )
-    for kind, plural in _KINDS.items():
+    for kind in UNITS:
         letters = [x for x in system.letters if system.kinds[x] == kind]
         if letters:
-            print_result(f"  {plural}: {', '.join(letters)}")
+            print_result(f"  {_PLURALS.get(kind, f'{kind}s')}: {', '.join(letters)}")
     if system.alone:
         print_result(f"  identified by themselves: {', '.join(system.alone)}")
     if system.constants:
-        print_result("  known from the table: "
-            + ", ".join(f"{k} = {v:.6g}" for k, v in system.constants.items()))  # fmt: skip
+        constants = ", ".join(f"{k} = {v:.6g}" for k, v in system.constants.items())
+        print_result(f"  known from the table: {constants}")
     print_lines(f"  {name} = {text}" for name, text in system.abbreviations.items())
     print_lines(["", *formulas.format_definition_lines(system)])
     easiest = formulas.find_easiest_set(system)
@@ -98,7 +85,7 @@ def _print_known(args: argparse.Namespace, subject: Physical) -> dict[str, Json]
     """Formulas; values if there is a model."""
     system, fitted = subject.system, subject.fitted
     known_values = formulas.parse_known_values(args.known, system)
-    _check_known_values(args, known_values, fitted is not None)
+    subject.check_known(known_values, args.near)
     with show_activity("solving"):
         solution = subject.derive_formulas(known_values)
     mark = {"python": "# ", "latex": "% ", "text": ""}[args.format]
@@ -126,26 +113,6 @@ def _print_known(args: argparse.Namespace, subject: Physical) -> dict[str, Json]
     return dict(solution_document)
 
 
-def _check_known_values(
-    args: argparse.Namespace, known_values: formulas.KnownValues, fitted: bool
-) -> None:
-    """A model needs values of all that is known, a robot has no use for any."""
-    if not fitted and (known_values.values or args.near is not None):
-        raise DataError(
-            f"{'--known' if known_values.values else '--near'}: got values, but {args.source} is a "
-            "robot "
-            "without identified ones; expected names alone, as am,bm, or a model file of "
-            "`modeler fit`"
-        )
-    if fitted:
-        missing = [x for x in known_values.names if x not in known_values.values]
-        if missing:
-            raise DataError(
-                f"--known: no value of {', '.join(missing)}; expected {missing[0]}=VALUE, SI "
-                "units, for every known parameter of a model"
-            )
-
-
 def _print_values(values: PhysicalValues) -> Json:
     derived, doubts, rows = values.derived, values.doubts, []
     print_result()
@@ -157,8 +124,10 @@ def _print_values(values: PhysicalValues) -> Json:
         unit, is_identified = UNITS[values.system.kinds[letter]], letter not in doubts
         if is_identified:
             percent = f"{100 * sigma / abs(value):.3g}" if value else "-"
-            print_result(f"{letter:<10} {value:>13.6g} {sigma:>10.3g} {percent:>8}  {unit:<7} "
-                f"{values.describe_sources(k)}")  # fmt: skip
+            sources = values.describe_sources(k)
+            print_result(
+                f"{letter:<10} {value:>13.6g} {sigma:>10.3g} {percent:>8}  {unit:<7} {sources}"
+            )
         else:
             print_result(f"{letter:<10} {'not told':>13}")
         slopes, shares = (
@@ -178,15 +147,12 @@ def _print_values(values: PhysicalValues) -> Json:
         )
     print_lines(doubts.values(), "not determined: ")
     _print_tested(values.tested)
+    values.require_consistent()
     return {"parameters": rows, "known_against_fit": [vars(row) for row in values.tested]}
 
 
 def _print_tested(tested: tuple[formulas.KnownAgainstFit, ...]) -> None:
-    """The known parameters against the fit.
-
-    Raises:
-        DataError: one contradicts it.
-    """
+    """The known parameters against the fit."""
     if not tested:
         return
     print_result()
@@ -194,19 +160,10 @@ def _print_tested(tested: tuple[formulas.KnownAgainstFit, ...]) -> None:
         "more is known than needed; each known parameter against what the others and the fit say:"
     )
     for row in tested:
-        print_result(f"  {row.letter:<8} given {row.known_value:<10.6g} follows "
-            f"{row.implied_value:.6g} +- {row.implied_sigma:.2g}, {abs(row.z):.1f} sigma"
-            + ("  contradicts" if row.is_contradictory else ""))  # fmt: skip
-    wrong = [row for row in tested if row.is_contradictory]
-    if wrong:
-        contradictions = "; ".join(
-            f"{r.letter} = {r.known_value:g} given, {r.implied_value:.6g} +- "
-            f"{r.implied_sigma:.2g} follows ({abs(r.z):.1f} sigma)"
-            for r in sorted(wrong, key=lambda r: -abs(r.z))
-        )
-        raise DataError(
-            f"--known contradicts the fit: {contradictions}; measure these again, or leave one of "
-            "them out"
+        print_result(
+            f"  {row.letter:<8} given {row.known_value:<10.6g} follows {row.implied_value:.6g} +- "
+            f"{row.implied_sigma:.2g}, {abs(row.z):.1f} sigma"
+            f"{'  contradicts' * row.is_contradictory}"
         )
 
 
@@ -264,9 +221,10 @@ def _print_cad_comparison(subject: Physical, cad: formulas.KnownValues) -> Json:
         f"{'quantity':<8} {'identified':>12} {'sigma':>9} {'CAD':>12} {'z':>8}  depends on"
     )
     for row in comparison.rows:
-        mark = "suspicious" if row.is_suspicious else ""
-        numbers = f"{row.identified_value:>12.5g} {row.sigma:>9.2g} {row.cad_value:>12.5g}"
-        line = f"{row.name:<8} {numbers} {row.z:>8.1f}  {' '.join(row.letters)}  {mark}"
+        line = (
+            f"{row.name:<8} {row.identified_value:>12.5g} {row.sigma:>9.2g} {row.cad_value:>12.5g}"
+        )
+        line += f" {row.z:>8.1f}  {' '.join(row.letters)}  {'suspicious' * row.is_suspicious}"
         print_result(line.rstrip())
     print_lines(f"{name:<8} not compared: {why}" for name, why in comparison.not_compared.items())
     _print_explained(comparison)
@@ -308,5 +266,7 @@ def _print_explained(comparison: formulas.CadComparison) -> None:
             f"{x} = {new:.5g} instead of {old:.5g}"
             for x, old, new in zip(e.letters, e.cad_values, e.fitted_values, strict=True)
         )
-        print_result(f"{'all agree' if e.is_sufficient else 'most is explained'} if {changes} "
-            f"(chi2 {e.chi_squared:.4g} instead of {comparison.chi_squared:.4g})")  # fmt: skip
+        chi2 = f"(chi2 {e.chi_squared:.4g} instead of {comparison.chi_squared:.4g})"
+        print_result(
+            f"{'all agree' if e.is_sufficient else 'most is explained'} if {changes} {chi2}"
+        )

@@ -207,9 +207,9 @@ class ModuleFolder(OutputFolder):
     """The folder of an emitted module."""
 
     writes = (
-        "*.c", "*.h", "*.hpp", "*.cu", "*.st", "*.a2l", "*.md", "*.sha256", "*.pc.in", "*.cmake",
-        "manifest.json", "Makefile", "CMakeLists.txt",
-    )  # fmt: skip
+        *("*.c", "*.h", "*.hpp", "*.cu", "*.st", "*.a2l", "*.md", "*.sha256", "*.pc.in", "*.cmake"),
+        *("manifest.json", "Makefile", "CMakeLists.txt"),
+    )
 
 
 class PictureData(Output):
@@ -261,8 +261,8 @@ def check_places(args: argparse.Namespace) -> None:
     for _, place in typed_places:
         if isinstance(place, Input) and not place:
             raise DataError(f'got "" for {place.what}; expected the name of a file')
-    read = [(place.what, target) for _, place in typed_places if isinstance(place, Input)
-            if (target := _find_input(place.file)) is not None]  # fmt: skip
+    inputs = ((p.what, _find_input(p.file)) for _, p in typed_places if isinstance(p, Input))
+    read = [(what, target) for what, target in inputs if target is not None]
     folders = [(option, place) for option, place in typed_places if isinstance(place, OutputFolder)]
     for option, folder in folders:
         files.check_folder_writable(Path(folder))

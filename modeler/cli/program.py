@@ -76,12 +76,16 @@ def _run_parsed(words: Sequence[str], phase: Phase) -> None:
         from modeler.cli.console import Verbosity, apply_verbosity, show_start, show_traceback
         from modeler.cli.parser import parse_words
         from modeler.core.errors import ModelerError
+        from modeler.core.options import OptionError
 
         args, verbosity = parse_words(words)
     with apply_verbosity(verbosity, args.progress == "lines"):
         try:
             show_start(words)
             _execute_command(args, phase, verbosity is Verbosity.VERBOSE)
+        except OptionError as error:
+            show_traceback()
+            raise ModelerError(error.format_line(lambda name: args.option_words[name])) from error
         except ModelerError:
             show_traceback()
             raise
@@ -92,8 +96,10 @@ def _execute_command(args: "argparse.Namespace", phase: Phase, every_line: bool)
         from modeler.cli.browser import open_page_when_done
         from modeler.cli.console import announce_step, run_command, show_clock
         from modeler.cli.places import check_places
+        from modeler.core.options import check_together
 
     with open_page_when_done(args):
+        check_together(vars(args), args.rules)
         check_places(args)
         with phase(), announce_step("loading"), show_clock("loading"):
             import logging

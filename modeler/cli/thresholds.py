@@ -15,18 +15,12 @@ class Thresholds:
     """Coefficients up to which all are listed; of more, the independent ones."""
     max_unrequested_coefficients: int = 40
     """Coefficients that are listed without --terms: a page."""
-    min_logs_for_processes: int = 32
-    """Logs from which several processes are worth their start; no study."""
     interrupt_patience: float = 3.0
     """s from the interrupt to the end by force."""
     curve_points: int = 366
     """Points at which the curve of an effect is computed for `modeler` lists."""
     max_unremarked_error: float = 0.2
     """Relative error of a fit above which `modeler log` warns; no study."""
-    max_determined_sigma: float = 10.0
-    """Percent of sigma below which a parameter counts as determined; papers: 10."""
-    named_parameters: int = 3
-    """Worst determined parameters that are named."""
     listed_sets: int = 10
     """Sets of known parameters that are printed."""
     listed_joints: int = 6

@@ -61,11 +61,6 @@ ModelKind = Literal["torque", "energy"]
 Precision = Literal["double", "single"]
 """Of the emitted C: its numbers are `double`, or `float`."""
 
-Also = Literal["vectors", "structured_text", "a2l"]
-"""What `generate` adds to a folder if it is asked to."""
-
-ALSO: tuple[Also, ...] = get_args(Also)
-
 Machine = Literal["cortex-m7", "cortex-m4", "host"]
 """What the cost of the emitted C is measured for; host: this machine."""
 

@@ -8,7 +8,8 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -34,6 +35,29 @@ Done = Callable[[float], None]
 
 def ignore_progress(share: float) -> None:
     """Ignores the share of the jobs that are done."""
+
+
+Progress = Callable[[str], AbstractContextManager[Done]]
+"""Opens a step of this title whose share of done work can be reported."""
+
+
+@dataclass(frozen=True)
+class Reporter:
+    """Reports the progress of work that takes long; each field by itself may be left out.
+
+    Attributes:
+        report_step: is called with the title of each step, which lasts as long as the context.
+        show_progress: the same, for a step whose share of done work is known.
+        print_note: takes a line on what is done otherwise than requested.
+    """
+
+    report_step: Callable[[str], AbstractContextManager[None]] = lambda title: nullcontext()
+    show_progress: Progress = lambda title: nullcontext(ignore_progress)
+    print_note: Callable[[str], None] = lambda line: None
+
+
+SILENT = Reporter()
+"""Reports nothing."""
 
 
 LOCAL = "local"

@@ -29,6 +29,7 @@ from .search import (
 from .separate import (
     Discrimination as Discrimination,
     DiscriminationProblem as DiscriminationProblem,
+    MotionSubset as MotionSubset,
     choose_motions as choose_motions,
     design_discriminating_motion as design_discriminating_motion,
 )

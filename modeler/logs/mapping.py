@@ -373,16 +373,16 @@ def parse_map_options(words: Sequence[str]) -> LogMap:
 
 
 def _parse_map_option(word: str) -> LogMap:
-    where = f"--map {word}"
+    where = f"mapping {word}"
     if word.endswith(".toml") and "=" not in word:
         path = Path(word)
         try:
             document = parse_toml(read_text(path))
         except OSError as error:
             why = f"cannot be read ({error.strerror}); check the path"
-            raise DataError(f"--map {path}: {why}") from None
+            raise DataError(f"mapping {path}: {why}") from None
         except ValueError as error:  # of TOML, or of UTF-8
-            raise DataError(f"--map {path}: not TOML ({error}); correct that line") from None
+            raise DataError(f"mapping {path}: not TOML ({error}); correct that line") from None
         return build_map(document.get("log", document), f"{path}: [log]", strict=True)
     if word.strip() == AUTO:
         return LogMap(auto=True)
@@ -407,7 +407,7 @@ def _parse_map_option(word: str) -> LogMap:
         table = {"column": head.strip(), "unit": unit.strip()}
     if table["column"].startswith("-"):
         table |= {"column": table["column"][1:].strip(), "sign": -1}
-    return build_map({key: table}, "--map", strict=True)
+    return build_map({key: table}, "mapping", strict=True)
 
 
 def _parse_pair(text: str, where: str) -> tuple[str, str]:

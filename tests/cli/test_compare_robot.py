@@ -96,8 +96,8 @@ def test_a_file_that_states_the_truth_has_no_error_but_noise(folder, capsys) -> 
     [
         ("two-link.toml run.csv", "two-link.toml: there is no such file"),
         ("emps run.csv", "emps: its file states no parameter values; expected [parameters]"),
-        ("arm.urdf run.csv --essential", "--essential: arm.urdf is a robot; expected a model"),
-        ("arm.urdf run.csv --run-embedded-c", "--run-embedded-c: arm.urdf is a robot; expected"),
+        ("arm.urdf run.csv --essential", "--essential: duo is a robot; expected a model"),
+        ("arm.urdf run.csv --run-embedded-c", "--run-embedded-c: duo is a robot; expected"),
         ("none.json run.csv", "none.json: cannot be read"),
     ],
 )

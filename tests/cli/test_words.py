@@ -27,7 +27,7 @@ PARSERS = collect_command_parsers(build_parser())
 def required(subparser: argparse.ArgumentParser) -> list[str]:
     found = []
     for action in subparser._actions:
-        out = subparser.prog.endswith(" fit") and action.dest == "out"  # none of several methods
+        out = action.dest in getattr(subparser, "required", {})  # unless another is given
         if action.option_strings and (action.required or out):
             found += [action.option_strings[-1], "out.toml" if "TOML" in str(action) else "out"]
     return found

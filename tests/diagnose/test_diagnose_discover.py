@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modeler.api.improve import add_proposals
+from modeler.api.improve import ModelOnLogs, add_proposals
 from modeler.diagnosis import proposals
 from modeler.diagnosis.added_model import LogSplit
 from modeler.diagnosis.diagnosis import diagnose
@@ -135,11 +135,12 @@ def test_what_is_proposed_can_be_pasted_and_added(case: Case, found: Diagnosis) 
     pasted = parse_robot_text(f"{model.robot_text}\n{first.text}\n", "pasted")
     assert [e.id for e in pasted.own_effects] == [first.finding.effect]
     assert first.effects_line == f'{first.finding.effect} = ["2"]'
-    better, left_out = add_proposals(model, case.compiled, LogSplit([train], [holdout]), found)
+    opened = ModelOnLogs(model, case.compiled, LogSplit([train], [holdout]))
+    better, left_out = add_proposals(opened, found)
     assert (better.history[-1].effect, better.history[-1].joint) == (first.finding.effect, "2")
     assert better.history[-1].error < 0.5 * better.history[0].error and not left_out
     unproven = dataclasses.replace(found, discoveries=())
-    same, why = add_proposals(model, case.compiled, LogSplit([train], [holdout]), unproven)
+    same, why = add_proposals(opened, unproven)
     assert same is model and why == ("left out: nothing was found",)
 
 

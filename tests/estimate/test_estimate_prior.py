@@ -11,7 +11,7 @@ from modeler.api import Load, fit_gains
 from modeler.api.fitting import run_estimator
 from modeler.codegen import derive, generate
 from modeler.core.errors import DataError
-from modeler.core.fit_options import FitOptions
+from modeler.core.options import FitOptions
 from modeler.estimation import PREFIXES, build_prior, compute_body_covariance, solve_least_squares
 from modeler.estimation.covariance import HalvesComparison
 from modeler.estimation.identify import build_base_equations, fit_equations, identify

@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 
 from modeler.api import compile_model, derive, generate
-from modeler.cli.motion import parse_bounds
+from modeler.api.motion_bounds import build_bounds
 from modeler.derivation.assembly_modes import complete_home
 from modeler.excitation import ExcitationTask, MotionBounds, MotionRequest, build_task
 from modeler.robot import Robot, read_robot
@@ -26,7 +26,7 @@ def limits_of(
 ) -> tuple[CompiledModel, MotionBounds]:
     """The robot compiled, and its limits as the command line takes them."""
     found, compiled = robot(name)
-    return compiled, parse_bounds(found, compiled, limits, boxes)
+    return compiled, build_bounds(found, compiled, limits, boxes)
 
 
 def plausible(compiled: CompiledModel, seed: int = 0) -> np.ndarray:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from modeler.api import check_motion
-from modeler.api.motion import build_bounds
+from modeler.api.motion_bounds import build_bounds
 from modeler.cli import main
 from modeler.core.errors import DataError, RobotError
 from modeler.excitation import (

@@ -127,11 +127,11 @@ OF_A_ROBOT = {
     "--rate 0": "--rate: got 0",
     "--time-limit 0": "time limit",
     "--picture p.bmp": ".png, .svg or .pdf",
-    "--choose 1": "needs --from",
-    "--choose 1 --from a.csv": "--out: got it with --choose, which names motions",
+    "--choose 1": "--choose: is of --from; add that",
+    "--choose 1 --from a.csv": "--out: got it with --choose; leave one",
     "--between stribeck@2,spring@2": "has no values",
-    "--between stribeck@2,spring@2 --from a.csv": "--between: got it with --from",
-    "--check a.csv": "--out: got it with --check, which looks at a motion",
+    "--between stribeck@2,spring@2 --from a.csv": "--from: got it with --between",
+    "--check a.csv": "--out: got it with --check; leave one",
     "--report p.html": "--report: no two links are looked at",
     "--clearance -1": "clearance: got -1 m; expected 0 or more",
     "--position-noise 1e-4": "--position-noise: demo-arm: sigmas follow from",
@@ -180,7 +180,9 @@ def test_a_motion_of_a_file_is_as_long_as_it_is(capsys, folder, tmp_path):
 
 
 def test_one_line_for_a_file_that_is_no_motion_and_for_none(capsys, tmp_path):
-    assert "--out: missing" in refused(capsys, "excite", "demo-arm")
+    with pytest.raises(SystemExit) as stop:
+        main(["excite", "demo-arm"])
+    assert stop.value.code == 2 and "arguments are required: --out" in capsys.readouterr().err
     words = ("excite", "scara", "--limit", "1=-1,1,2,8,50", "--out", tmp_path / "m.csv")
     assert "limits of torques need values" in refused(capsys, *words)
     assert ".txt" in refused(capsys, "excite", "demo-arm", "--out", tmp_path / "m.txt")

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from modeler.api import excite, expected_sigmas
-from modeler.api.motion import Encoders, build_subject
-from modeler.cli.motion import describe_expected_sigmas
+from modeler.api.motion import Encoders, build_subject, describe_expected_sigmas
 from modeler.core.errors import DataError
 from modeler.regression.log import Log
 from tests.chain import chain_of

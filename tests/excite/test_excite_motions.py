@@ -5,7 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.api.motion import build_bounds, build_subject
+from modeler.api.motion import build_subject
+from modeler.api.motion_bounds import build_bounds
 from modeler.core.errors import DataError
 from modeler.excitation import MotionRequest, build_task, design_motion, draw_random_motion
 from modeler.excitation.series import MotionColumns, build_series, compute_condition

@@ -67,13 +67,13 @@ def test_processes_and_lists_give_the_same(capsys, plant: Path, tmp_path: Path) 
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        ("", "fleet: got no logs; name files or folders of logs, or a --list of them"),
+        ("", "fleet: got no logs; name files or folders of logs, or --list FILE"),
         ("@/r1/2026-03-01.parquet --workers 0", "--workers: got 0; expected 1 or more"),
         ("@/r1/2026-03-01.parquet", "fleet: got one log each of r1; expected two periods of a mac"),
         ("@/r1/2026-03-01.parquet @/r1/2026-03-01.parquet", "is too; expected one log each; renam"),
         ("@ --name no{period}", "does not fit --name no{period}; expected a path that ends so"),
         ("nowhere", "modeler: nowhere: no such file or folder; expected logs, or folders of logs"),
-        ("@ --list @/logs.csv", "logs.csv: got @ besides; expected all logs in the list"),
+        ("@ --list @/logs.csv", "LOG: got it with --list; leave one of them out"),
         ("@/empty", "/empty: a folder without logs; expected .csv, .parquet, "),
         ("@ --cutoff -1", "position_cutoff is -1.0; expected a number that is not negative"),
         ("@ --effects none", "--effects: got none; expected some of"),

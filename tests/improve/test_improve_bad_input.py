@@ -27,7 +27,7 @@ REFUSED = {
     "learned --joint 2 --of q,v,a": "--of q,v,a: expected one or two quantities, as in q,v",
     "learned --joint 2 --of speed": '--of speed: law: columns, xa: got "speed": speed is',
     "viscous --of q": "--of, --odd, --monotone: got them with viscous; expected",
-    "viscous --learned": "--learned: got it with viscous; expected `modeler add MODEL auto`",
+    "viscous --learned": "--learned: got it with viscous; expected the effect auto",
 }
 
 

@@ -7,6 +7,7 @@ import pytest
 
 from modeler import api
 from modeler.core.errors import DataError, RobotError
+from modeler.core.options import AddOptions, DiagnoseOptions
 from modeler.estimation.model_file import save_model
 from modeler.regression.log import Log
 from modeler.robot.edit import collect_shared_effects, export_effect
@@ -52,20 +53,20 @@ def folder(tmp_path: Path) -> Path:
 @pytest.mark.rotating("effects are added to simulated runs")
 def test_it_is_found_and_added_on_a_robot_that_does_not_define_it(case: Case, folder: Path) -> None:
     model, train, holdout = case.hidden(brake)
-    found = api.diagnose(model, [train], [holdout], effects_from=folder)
+    found = api.diagnose(model, [train], [holdout], DiagnoseOptions(effects_from=folder))
     assert [(f.effect, f.joint) for f in found.effects] == [("eddy_brake", "2")]
     left = [line for line in found.sentences if line.startswith("left out: ")]
     assert left == [
         f"left out: leaning ({folder / 'far.toml'}: it reads q7, no joint of demo-arm)",
         "left out: learned_2 (a learned law, no physics)",
     ]
-    better = api.add(model, "eddy_brake", [train], [holdout], joint="2", effects_from=folder)
+    better = api.add(model, "eddy_brake", [train], [holdout], AddOptions("2", folder))
     own = parse_robot_text(better.robot_text, "better").own_effects
     assert [effect.id for effect in own] == ["eddy_brake"]
     values = {p.name: p.value for p in better.fit.parameters}
     assert values["Keb2"] == pytest.approx(4.0, rel=0.04)
     with pytest.raises(DataError, match=r"leaning of .*far\.toml: it reads q7, no joint of"):
-        api.add(model, "leaning", [train], effects_from=folder)
+        api.add(model, "leaning", [train], options=AddOptions(None, folder))
     with pytest.raises(DataError, match="eddy_brake: no such effect"):
         api.add(model, "eddy_brake", [train])
 
@@ -81,7 +82,7 @@ def test_a_law_that_was_learned_is_added_by_its_name(case: Case, folder: Path) -
         return on_joint(log, 1, 5.0 * np.tanh(v / 0.002) * law.columns[0].equation.law(speed))
 
     model, train, holdout = case.hidden(bent)
-    better = api.add(model, "learned_2", [train], [holdout], joint="2", effects_from=folder)
+    better = api.add(model, "learned_2", [train], [holdout], AddOptions("2", folder))
     value = {p.name: p for p in better.fit.parameters}["Lw2"]
     assert value.sigma is not None and abs(value.value - 5.0) < 4.0 * value.sigma
     assert better.history[1].learned
@@ -203,7 +204,7 @@ def test_what_cannot_be_exported(tmp_path: Path, run: Run) -> None:
     own = tmp_path / "eddy_brake.toml"
     own.write_text(ROBOT + BRAKE, encoding="utf-8")
     for words, said in (
-        (("eddy_brake",), "--export eddy_brake: expected --robot too, a robot or model that has"),
+        (("eddy_brake",), "--export: is of --robot; add that"),
         (("eddy_brak", "--robot", own), 'eddy_brak: no such effect (did you mean "eddy_brake"?)'),
         (("spring", "--robot", own), "spring: every robot may have it; expected one that spinner"),
         (("eddy_brake", "--robot", own, "--out", tmp_path, "--force"),

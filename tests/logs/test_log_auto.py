@@ -131,7 +131,7 @@ def test_the_guess_is_written_into_the_robot_file(slide, tmp_path, run, monkeypa
 
 
 WRITES = [
-    (["log", "{a}", "--write"], "--write: got no robot file to write into; expected --robot"),
+    (["log", "{a}", "--write"], "--write: is of --robot; add that"),
     (["log", "{a}", "--robot", "emps", "--write"], "--write: emps is built in; save it"),
     (["log", "{a}", "--robot", "arm.par", "--write"], "another program's file"),
 ]
@@ -195,7 +195,7 @@ def test_a_mistake_in_these_tables_is_one_line(text, line):
 
 def test_what_a_guess_did_not_find_is_not_sent_to_guess_again(case, tmp_path, monkeypatch, run):
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(DataError, match=r"--map automatic: expected .*, or auto"):
+    with pytest.raises(DataError, match=r"mapping automatic: expected .*, or auto"):
         read_logs(case.compiled, [], ["automatic"])
     rows = "".join(f"{k / 100:.2f};1;2;3;4\n" for k in range(60))
     (tmp_path / "log.csv").write_text(f"zeit;Drehung_Ist A;Drehung_Ist B;tauA;tauB\n{rows}")

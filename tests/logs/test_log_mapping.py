@@ -147,12 +147,12 @@ WRONG = [
     ({"topic": 3}, r"R, topic: got 3"),
     ({"rate": 0}, r"R: rate is 0; expected the samples in a second"),
     ({"names": ["a"]}, r"R, names: got \['a'\]; expected a table such as"),
-    (["q1=ab:deg"], r"--map, q1: no column ab \(q1\) \(did you mean . or .\?\); the columns"),
-    (["q<j>=pos{j}"], r"--map, q<j>: no column pos1 \(q1\)"),
-    (["q1"], r"--map q1: expected NAME=COLUMN\[:UNIT\]"),
-    (["rate=fast"], r"--map rate=fast: got fast; expected a number"),
-    (["names=1"], r"--map names=1: got 1; expected JOINT:NAME"),
-    (["none.toml"], r"--map none.toml: cannot be read \(No such file or directory\)"),
+    (["q1=ab:deg"], r"mapping, q1: no column ab \(q1\) \(did you mean . or .\?\); the columns"),
+    (["q<j>=pos{j}"], r"mapping, q<j>: no column pos1 \(q1\)"),
+    (["q1"], r"mapping q1: expected NAME=COLUMN\[:UNIT\]"),
+    (["rate=fast"], r"mapping rate=fast: got fast; expected a number"),
+    (["names=1"], r"mapping names=1: got 1; expected JOINT:NAME"),
+    (["none.toml"], r"mapping none.toml: cannot be read \(No such file or directory\)"),
 ]  # fmt: skip
 
 

@@ -437,14 +437,14 @@ def test_a_rounded_angle_of_a_relation_is_exact_too():
 
 
 def test_degrees_of_effects_and_of_words_on_the_command_line():
-    from modeler.cli.motion import _parse_assignment
+    from modeler.api.motion_bounds import parse_assignments
 
     robot = read('columns = ["j", "theta"]\nrows = [["1", "q1"]]',
                  '[effects]\nspring = [{joint = "1", q0 = "30 deg", h = 0}]')  # fmt: skip
     assert robot.effects[0].stated_instances[0].nonlinear_parameters["q0"] == pytest.approx(
         math.pi / 6
     )
-    name, values = _parse_assignment("--limit", "1=-90 deg,pi/2,2,8", ["1"], (4, 5), "LOWER,...")
-    assert (name, values) == ("1", [-math.pi / 2, math.pi / 2, 2.0, 8.0])
+    values = parse_assignments("limits", ["1=-90 deg,pi/2,2,8"], ["1"], (4, 5), "LOWER,...")
+    assert values == {"1": [-math.pi / 2, math.pi / 2, 2.0, 8.0]}
     with pytest.raises(DataError, match="numbers in SI units"):
-        _parse_assignment("--limit", "1=-90 degrees,q1,2,8", ["1"], (4, 5), "LOWER,...")
+        parse_assignments("limits", ["1=-90 degrees,q1,2,8"], ["1"], (4, 5), "LOWER,...")
