@@ -286,7 +286,7 @@ def identify(
 
     >>> run = simulate(open_robot("two-link"), duration=6.0, seed=1)
     >>> model = identify("two-link", {"time": run.time, "q": run.q, "tau": run.tau})
-    >>> model["Fs2"].unit, model.fit.verdict.usable
+    >>> model["Fs2"].unit, model.fit.verdict.valid
     ('N m', True)
 
     Args:

@@ -131,7 +131,7 @@ def _improve_model(
     save_model(out / "improved.json", better)
     print_lines([*format_waterfall(better), *left_out], "   ")
     if better.history:
-        held_out = better.history[-1].held_out
+        held_out = better.history[-1].held_out_logs
         place, train = str(out / "improved.json"), str(out / "train.parquet")
         others = [str(out / name) for name in held_out]
         origin = pages.Origin(
