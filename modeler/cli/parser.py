@@ -68,12 +68,15 @@ class Methods(places.Word):
 # The table of commands.
 
 
-def parse_names(text: str) -> list[str]:
-    """Parses a list of names with commas between."""
-    return [name for part in text.split(",") if (name := part.strip())]
+class Names(places.Word):
+    """Names with commas between: a list of them."""
+
+    def __new__(cls, text: str) -> Any:
+        """Splits the text."""
+        return [name for part in text.split(",") if (name := part.strip())]
 
 
-_TYPES = {"int": int, "float": float, "Methods": Methods, "Names": parse_names}
+_TYPES = {"int": int, "float": float, "Methods": Methods, "Names": Names}
 _CHOICES = {"conventions": CONVENTIONS, "forms": sorted(get_args(Form)), "templates": TEMPLATES}
 _IN_WRITTEN, _IN_LOGS = (places.Output, places.OutputFolder), (places.LogFile, places.MapWord)
 _RULES = ("needs", "excludes", "required_without")

@@ -99,8 +99,8 @@ def _execute_command(args: "argparse.Namespace", phase: Phase, every_line: bool)
         from modeler.core.options import check_together
 
     with open_page_when_done(args):
-        check_together(vars(args), args.rules)
         check_places(args)
+        check_together(vars(args), args.rules)
         with phase(), announce_step("loading"), show_clock("loading"):
             import logging
 
