@@ -347,6 +347,19 @@ def compare_models(
     return compare_named_models(models_by_name, logs, mapping=mapping)[0]
 
 
+def choose_names(places: Sequence[str]) -> list[str]:
+    """Returns the names of files of models, or their paths where two are alike.
+
+    Raises:
+        DataError: one file is given twice.
+    """
+    for k, place in enumerate(places):
+        if Path(place).resolve() in {Path(other).resolve() for other in places[:k]}:
+            raise DataError(f"{place}: got this model twice; expected each model once")
+    short = [Path(place).name for place in places]
+    return short if len(set(short)) == len(short) else [str(place) for place in places]
+
+
 def compare_named_models(
     things: Mapping[str, IdentifiedModel | Robot],
     logs: Logs,

@@ -2,13 +2,19 @@
 
 import dataclasses
 from collections.abc import Mapping
+from pathlib import Path
 
+from modeler.core.choices import OTHER_PROGRAMS, list_builtin_robots
 from modeler.core.errors import DataError
+from modeler.core.files import check_writable
+from modeler.core.options import OptionError
 from modeler.derivation import HomeModes, express_as_home, find_modes_near
-from modeler.robot import Robot, parse_robot_text, replace_home
+from modeler.robot import Robot, TomlCell, parse_robot_text, read_home, replace_home
 
 
-def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = False) -> HomeModes:
+def home(
+    robot: Robot, near: Mapping[str, float] | str | None = None, anew: bool = False
+) -> HomeModes:
     """Finds the assembly modes of a robot, the best first; `table()` lists them.
 
     >>> home(load("five-bar")).table().column("mode")
@@ -16,7 +22,8 @@ def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = Fal
 
     Args:
         robot: with loops.
-        near: values that are meant, by row, rad or m; None: [home] of the robot.
+        near: values that are meant, by row, rad or m; or as text, "q1=0.3,q2=pi"; None: [home] of
+            the robot.
         anew: True to search as if the robot stated no [home].
 
     Raises:
@@ -24,6 +31,7 @@ def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = Fal
         DataError: a row that is not there.
     """
     stated = {} if anew else dict(robot.home)
+    near = _parse_near(near, robot) if isinstance(near, str) else near
     if near is not None:
         moving = [joint.name for joint in robot.moving_joints]
         for name in near:
@@ -36,6 +44,20 @@ def home(robot: Robot, near: Mapping[str, float] | None = None, anew: bool = Fal
     return find_modes_near(dataclasses.replace(robot, home={}) if anew else robot, stated)
 
 
+def _parse_near(text: str, robot: Robot) -> dict[str, float]:
+    """The values of a text."""
+    values: dict[str, str] = {}
+    for entry in text.split(","):
+        name, equals, value = (part.strip() for part in entry.partition("="))
+        if not equals or not name or not value:
+            raise OptionError(
+                f"{{--near}} {text}: got {entry!r}; expected values as in q1=0.3,q2=pi"
+            )
+        values[name] = value
+    moving = {joint.name: joint for joint in robot.moving_joints}
+    return dict(read_home(TomlCell("--near", value=values), moving, robot.evaluate_symbols()))
+
+
 def select_mode(modes: HomeModes, letter: str | None, best: bool = False) -> int:
     """Returns the index of the mode with that letter; by default the robot's own.
 
@@ -46,8 +68,8 @@ def select_mode(modes: HomeModes, letter: str | None, best: bool = False) -> int
         return 0 if modes.stated_index is None or best else modes.stated_index
     letters = [mode.letter for mode in modes.modes]
     if letter.upper() not in letters:
-        raise DataError(
-            f"--mode {letter}: there is no such mode; expected one of {', '.join(letters)}"
+        raise OptionError(
+            f"{{--mode}} {letter}: there is no such mode; expected one of {', '.join(letters)}"
         )
     return letters.index(letter.upper())
 
@@ -64,3 +86,20 @@ def home_posture(robot: Robot, modes: HomeModes, letter: str | None = None) -> R
     posture = modes.modes[select_mode(modes, letter)].posture
     text = replace_home(robot.text, robot.home, express_as_home(modes.linkage, posture))
     return parse_robot_text(text, f"{robot.name} with its [home]")
+
+
+def check_own_file(robot: str, what: str) -> None:
+    """Raises an error if nothing can be written into the robot file; `what` names it."""
+    if robot in list_builtin_robots():
+        raise OptionError(
+            f"{{--write}}: {robot} is built in; save it with `modeler robots {robot}` "
+            "as a file of your own, and write into that"
+        )
+    path = Path(robot)
+    if path.suffix.lower() in OTHER_PROGRAMS:
+        raise OptionError(
+            f"{{--write}}: {path} is another program's file, which states no {what}; convert it "
+            f"with `modeler convert {path} --out {path.with_suffix('.toml')}`, and write into that"
+        )
+    if path.is_file():
+        check_writable(path)

@@ -61,7 +61,7 @@ def _run_model_comparison(
             f"{', '.join(places)}: got models only; expected a log too, as in run.csv or "
             "run.parquet; name at least one after them"
         )
-    named = dict(zip(_choose_names(places), things, strict=True))
+    named = dict(zip(checks.choose_names(places), things, strict=True))
     comparison, lines, models, is_held_out = checks.compare_named_models(
         named, logs, options, args.mapping, REPORTER
     )
@@ -83,19 +83,6 @@ def _read_model(place: str) -> IdentifiedModel | Robot:
             f"{place}: not a model file, and no robot; write MODEL or ROBOT first, logs next"
         )
     return read_robot_with_notes(place)
-
-
-def _choose_names(places: Sequence[str]) -> list[str]:
-    """File names, or paths where two are alike.
-
-    Raises:
-        DataError: one file is given twice.
-    """
-    for k, place in enumerate(places):
-        if Path(place).resolve() in {Path(other).resolve() for other in places[:k]}:
-            raise DataError(f"{place}: got this model twice; expected each model once")
-    short = [Path(place).name for place in places]
-    return short if len(set(short)) == len(short) else [str(place) for place in places]
 
 
 def _run_free_run(args: argparse.Namespace, options: CompareOptions) -> Json:

@@ -20,9 +20,8 @@ from modeler.cli.console import (
 from modeler.cli.lists import REPORTER, read_options, resolve_robot
 from modeler.cli.parser import ALL, Methods
 from modeler.core.choices import ABOUT, GAIN_METHOD
-from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.core.options import FitOptions
+from modeler.core.options import FitOptions, OptionError
 from modeler.core.table import align_columns
 from modeler.estimation import IdentifiedModel, save_model
 from modeler.formats import read_robot
@@ -70,22 +69,22 @@ def _check_files(args: argparse.Namespace, method: Methods, model: str) -> None:
     unused = [name for name in _OF_ONE if getattr(args, name)] + ["model"] * (model != "torque")
     consistent = [id for id, about in ABOUT.items() if about.is_consistent]
     refusals = {
-        f"--{unused[0].replace('_', '-') if unused else ''}: got it with --method {method}, which "
+        f"{{--{unused[0] if unused else 'out'}}}: got it with {{--method}} {method}, which "
         "compares methods and writes no model; leave it out, or choose one method": (
             method.is_several and bool(unused)
         ),
-        f"--holdout: got it with --method {method}; errors on other logs are shown of several "
-        f"methods, as in --method {ALL}, and of a model by `modeler compare`": (
+        f"{{--holdout}}: got it with {{--method}} {method}; errors on other logs are shown of "
+        f"several methods, as in {{--method}} {ALL}, and of a model by `modeler compare`": (
             not method.is_several and bool(args.holdout)
         ),
-        f"--robot-out: --method {method} ends in base parameters; use --method consistent, which "
-        f"ends in all standard parameters, or {GAIN_METHOD}, which finds drive gains": (
+        f"{{--robot_out}}: {{--method}} {method} ends in base parameters; use {{--method}} "
+        f"consistent, which ends in all standard parameters, or {GAIN_METHOD}, which finds drive gains": (
             args.robot_out is not None and method not in (*consistent, GAIN_METHOD)
         ),
     }
     for why, refused in refusals.items():
         if refused:
-            raise DataError(why)
+            raise OptionError(why)
 
 
 def _write_model(

@@ -17,9 +17,9 @@ from modeler.cli.console import (
 from modeler.cli.parser import describe_unknown
 from modeler.cli.places import Output, check_places
 from modeler.cli.thresholds import THRESHOLDS
-from modeler.core.choices import ABOUT, OTHER_PROGRAMS, list_builtin_robots
+from modeler.core.choices import ABOUT, list_builtin_robots
 from modeler.core.errors import DataError, RobotError
-from modeler.core.files import check_writable, write_all_without_overwriting
+from modeler.core.files import write_all_without_overwriting
 from modeler.core.jobs import Reporter
 from modeler.core.json import select_attributes
 from modeler.core.options import OptionError, Options
@@ -126,23 +126,6 @@ def read_robot_or_model(args: argparse.Namespace) -> "Robot | IdentifiedModel":
     from modeler.estimation import load_model  # a robot needs no fits
 
     return load_model(args.robot)
-
-
-def check_own_file(robot: str, what: str) -> None:
-    """Raises an error if --write cannot write into the robot file."""
-    if robot in list_builtin_robots():
-        raise DataError(
-            f"--write: {robot} is built in; save it with `modeler robots {robot}` "
-            "as a file of your own, and write into that"
-        )
-    path = Path(robot)
-    if path.suffix.lower() in OTHER_PROGRAMS:
-        raise DataError(
-            f"--write: {path} is another program's file, which states no {what}; convert it with "
-            f"`modeler convert {path} --out {path.with_suffix('.toml')}`, and write into that"
-        )
-    if path.is_file():
-        check_writable(path)
 
 
 def read_options(

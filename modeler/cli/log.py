@@ -19,7 +19,7 @@ from modeler.api.log_maps import (
 )
 from modeler.api.workflow import are_long, are_too_long
 from modeler.cli.console import Json, print_lines, print_result, show_activity, write_pictures
-from modeler.cli.lists import check_own_file, read_robot_with_notes
+from modeler.cli.lists import read_robot_with_notes
 from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.errors import BuildError, ModelerError, flatten_message
 from modeler.core.files import write_atomically
@@ -51,6 +51,8 @@ def run_log(args: argparse.Namespace) -> Json:
     """Prints what the log holds, its warnings, and a [log] to start from."""
     compiled = described = uncompiled = None
     if args.write:
+        from modeler.api.postures import check_own_file  # symbols take long to load
+
         check_own_file(args.robot, "columns of logs")
     if args.robot is not None:
         robot = read_robot_with_notes(args.robot)

@@ -16,7 +16,7 @@ from modeler.cli.console import (
     show_activity,
     show_next,
 )
-from modeler.cli.lists import check_own_file, read_robot_with_notes
+from modeler.cli.lists import read_robot_with_notes
 from modeler.cli.places import Output, check_places
 from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.choices import CONVENTIONS, TEMPLATES
@@ -25,12 +25,10 @@ from modeler.core.files import write_atomically
 from modeler.formats import convert, parse_lock_values
 from modeler.robot import (
     Robot,
-    TomlCell,
     check_new_robot,
     fill_template,
     format_home_lines,
     new_robot,
-    read_home,
     replace_home,
 )
 from modeler.views import (
@@ -136,7 +134,7 @@ MODE_PICTURES = (*PICTURE_KINDS, ".html")
 
 def run_home(args: argparse.Namespace) -> Json:
     """Prints the assembly modes, draws them, writes one into the robot file."""
-    from modeler.api.postures import home as home_modes, select_mode  # symbols take long to load
+    from modeler.api import postures  # symbols take long to load
     from modeler.derivation import express_as_home
 
     kind = "" if args.picture is None else Path(args.picture).suffix.lower()
@@ -146,12 +144,11 @@ def run_home(args: argparse.Namespace) -> Json:
             f"{', '.join(MODE_PICTURES)}"
         )
     if args.write:
-        check_own_file(args.robot, "posture")
+        postures.check_own_file(args.robot, "posture")
     robot = read_robot_with_notes(args.robot)
-    near = _parse_near(args, robot)
     with show_activity(f"closing the loops of {robot.name}"):
-        modes = home_modes(robot, near, args.anew)
-    chosen = select_mode(modes, args.mode, args.near is not None)
+        modes = postures.home(robot, args.near, args.anew)
+    chosen = postures.select_mode(modes, args.mode, args.near is not None)
     print_lines(_format_table(modes))
     for place, ending in ((args.picture, kind), (args.report, ".html")):
         if place is not None:
@@ -206,22 +203,6 @@ def _draw_modes(modes: "HomeModes", kind: str) -> bytes:
     if kind != ".html":
         return picture
     return render_modes_page(robot.name, robot.title, len(modes.modes), picture.decode()).encode()
-
-
-def _parse_near(args: argparse.Namespace, robot: Robot) -> dict[str, float] | None:
-    """The values of --near; None without."""
-    if args.near is None:
-        return None
-    values: dict[str, str] = {}
-    for entry in args.near.split(","):
-        name, equals, value = (part.strip() for part in entry.partition("="))
-        if not equals or not name or not value:
-            raise DataError(
-                f"--near {args.near}: got {entry!r}; expected values as in q1=0.3,q2=pi"
-            )
-        values[name] = value
-    moving = {joint.name: joint for joint in robot.moving_joints}
-    return dict(read_home(TomlCell("--near", value=values), moving, robot.evaluate_symbols()))
 
 
 def _format_table(assembly: "HomeModes") -> list[str]:
