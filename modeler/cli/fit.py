@@ -78,7 +78,8 @@ def _check_files(args: argparse.Namespace, method: Methods, model: str) -> None:
             not method.is_several and bool(args.holdout)
         ),
         f"{{--robot_out}}: {{--method}} {method} ends in base parameters; use {{--method}} "
-        f"consistent, which ends in all standard parameters, or {GAIN_METHOD}, which finds drive gains": (
+        "consistent, which ends in all standard parameters, or "
+        f"{GAIN_METHOD}, which finds drive gains": (
             args.robot_out is not None and method not in (*consistent, GAIN_METHOD)
         ),
     }
