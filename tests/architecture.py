@@ -29,7 +29,7 @@ STAGES: dict[str, set[str]] = {
     "papers": {"core", *NORTH, *SOUTH[:2], "regression", "estimation", "simulation", "excitation"},
     "views": {"core", *NORTH, *SOUTH, "simulation"},
     "api": {"core", *NORTH, *SOUTH, "simulation", "formats", "views"},
-    "studio": {"core", *NORTH, *SOUTH, "simulation", "formats", "views", "api"},
+    "studio": {"api"},
     "cli": {"core", *NORTH, *SOUTH, "simulation", "papers", "formats", "views", "api", "studio"},
 }
 

@@ -31,6 +31,16 @@ class Thresholds:
     """Worst determined parameters that are named."""
     min_logs_for_processes: int = 32
     """Logs from which several processes are worth their start; no study."""
+    curve_points: int = 1500
+    """Points of a curve that is drawn on a screen."""
+    coarse_rows: int = 64
+    """Rows of a long log by one least and one largest value."""
+    max_whole_values: int = 25_000_000
+    """Values of a log that is held as it is: 200 MB."""
+    explained_bins: int = 24
+    """Bins of a channel over which a residual is averaged; no study."""
+    explained_folds: int = 8
+    """Consecutive parts of the time, each predicted by the others; no study."""
 
 
 THRESHOLDS = Thresholds()

@@ -14,9 +14,13 @@ from fastapi import FastAPI, Response
 from fastapi.responses import FileResponse, HTMLResponse
 from nicegui import Client, app as nicegui_app, background_tasks, ui
 
-from modeler.core.choices import read_builtin_robot
-from modeler.core.errors import ModelerError
-from modeler.core.files import locate_resources, read_text, write_atomically
+from modeler.api.front_end import (
+    ModelerError,
+    locate_resources,
+    read_builtin_robot,
+    read_text,
+    write_atomically,
+)
 from modeler.studio import (
     comparison_screens,
     data_screen,

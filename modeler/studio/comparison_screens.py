@@ -8,9 +8,7 @@ import numpy as np
 from nicegui import ui
 from nicegui.elements.plotly import Plotly
 
-from modeler.core.errors import ModelerError
-from modeler.core.figure import read_pictures
-from modeler.core.table import format_percent
+from modeler.api.front_end import ModelerError, format_percent, read_pictures
 from modeler.studio import commands, figures
 from modeler.studio.elements import (
     RobotFrame,
@@ -29,8 +27,8 @@ from modeler.studio.studio import Studio
 from modeler.studio.tasks import LogPart, Step, Task, TimeRange
 from modeler.studio.timeline import Timeline
 
-if TYPE_CHECKING:
-    from modeler.studio.viewing import Verdict
+if TYPE_CHECKING:  # who only draws loads nothing that computes
+    from modeler.api.model_on_logs import Verdict
 
 _TIME = "fails"  # that all pictures of the screen share
 _SPEEDS = {0.1: "0.1x", 0.5: "0.5x", 1.0: "1x", 2.0: "2x", 5.0: "5x"}

@@ -7,8 +7,7 @@ from pathlib import Path
 from nicegui import background_tasks, ui
 from nicegui.element import Element
 
-from modeler.core.choices import LOG_ENDINGS
-from modeler.core.errors import ModelerError
+from modeler.api.front_end import LOG_ENDINGS, ModelerError
 from modeler.studio import commands
 from modeler.studio.elements import add_card, draw_head
 from modeler.studio.file_inputs import add_drop_zone, choose_files

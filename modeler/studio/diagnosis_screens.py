@@ -9,11 +9,16 @@ from typing import Any
 
 from nicegui import ui
 
-from modeler.core.errors import ModelerError
-from modeler.core.figure import Picture, read_pictures
-from modeler.core.table import format_error_pair, format_percent
-from modeler.effects import CATALOGUE, find_effect
-from modeler.estimation import format_spread
+from modeler.api.front_end import (
+    CATALOGUE,
+    ModelerError,
+    Picture,
+    find_effect,
+    format_error_pair,
+    format_percent,
+    format_spread,
+    read_pictures,
+)
 from modeler.studio import commands, elements, figures
 from modeler.studio.commands import build_viewer_words
 from modeler.studio.comparison_screens import connect_zoom

@@ -8,8 +8,7 @@ from nicegui import ui
 from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
-from modeler.core.errors import ModelerError
-from modeler.core.table import format_percent
+from modeler.api.front_end import ModelerError, format_percent
 from modeler.studio.access import REPORTS
 from modeler.studio.commands import build_command_words
 from modeler.studio.studio import Studio

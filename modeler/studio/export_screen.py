@@ -10,13 +10,12 @@ from typing import Any
 
 from nicegui import ui
 
-from modeler.core.errors import ModelerError
-from modeler.robot import replace_fitted_values
+from modeler.api.front_end import ModelerError, replace_fitted_values
 from modeler.studio import elements
 from modeler.studio.places import compute_disk_use, find_unused_files, format_size
 from modeler.studio.project import Project
 from modeler.studio.studio import Studio
-from modeler.studio.tasks import FIXED, LogPart, Step, Task, build_command_line
+from modeler.studio.tasks import FIT_OPTIONS, FIXED, LogPart, Step, Task, build_command_line
 
 _ABOUT = ("compare", "diagnose")
 """Verbs that say something about a model, and are reported again."""
@@ -164,7 +163,7 @@ def _format_code(recipe: Recipe, step: Step) -> Iterator[str]:
         yield f"modeler.simulate(robot, {task.file!r}, {_format_settings(task)})"
     elif step.verb == "fit":
         yield f"robot = modeler.open_robot({step.robot_copy!r})"
-        stated = {name: getattr(task, name) for name in _STATED}
+        stated = {option.name: getattr(task, option.name) for option in FIT_OPTIONS}
         stated = {name: value for name, value in stated.items() if value not in ("", None)}
         if stated:
             yield f"robot = dataclasses.replace(robot, fit={{**robot.fit, **{stated!r}}})"
@@ -183,12 +182,6 @@ def _format_code(recipe: Recipe, step: Step) -> Iterator[str]:
         yield model_name
 
 
-_STATED = (
-    "method", "derivatives", "cutoff", "parallel_cutoff", "low_speed", "essential_below"
-)  # fmt: skip
-"""What of a fit the robot gets, as its table [fit] would."""
-
-
 def _format_settings(task: Task) -> str:
     fixed = dict(zip(FIXED["simulate"][::2], FIXED["simulate"][1::2], strict=True))
     numbers = f"duration={fixed['--duration']}, seed={task.seed}, torque_noise={fixed['--noise']}"
@@ -203,7 +196,7 @@ async def draw(studio: Studio) -> None:
     """Draws the screen of what can be taken away as files."""
     project = studio.project
     elements.draw_head(
-        "Export", "Everything leaves as files; the script and the notebook do it all again."
+        "Take away", "Everything leaves as files; the script and the notebook do it all again."
     )
     if not project.model_file:
         elements.explain_missing_model(studio)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from modeler.core.figure import SHADE, Band, Bars, Curve, Heat, Panel, Picture, Points, Series
+from modeler.api.front_end import SHADE, Band, Bars, Curve, Heat, Panel, Picture, Points, Series
 from modeler.studio.thresholds import THRESHOLDS
 
 if TYPE_CHECKING:

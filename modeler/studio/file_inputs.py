@@ -18,8 +18,7 @@ from fastapi.responses import JSONResponse
 from nicegui import ui
 from starlette.requests import ClientDisconnect
 
-from modeler.core.choices import LOG_ENDINGS
-from modeler.core.errors import DataError, ModelerError
+from modeler.api.front_end import LOG_ENDINGS, DataError, ModelerError
 from modeler.studio.places import BEGUN, ROBOT_ENDINGS, Entry, Roots, format_size
 from modeler.studio.studio import Studio
 from modeler.studio.thresholds import THRESHOLDS

@@ -1,20 +1,23 @@
 """The screen "fit": values from the training segments, and what they are worth, joint by joint."""
 
+import dataclasses
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, get_args, get_type_hints
 
 from nicegui import ui
 
-from modeler.core.choices import ABOUT, APART, EFFECTS, TWO_STEPS
-from modeler.core.json import build_instance
-from modeler.core.manifest import BaseSpec
-from modeler.core.table import format_percent
-from modeler.robot import parse_robot_text
+from modeler.api.front_end import (
+    ABOUT,
+    APART,
+    EFFECTS,
+    FitOptions,
+    format_percent,
+    parse_robot_text,
+)
 from modeler.studio import commands, elements
 from modeler.studio.elements import LIGHTS, Light, Markup, format_number
 from modeler.studio.studio import Studio
-from modeler.studio.tasks import ROBOT, Step, Task
-from modeler.views import format_relation
+from modeler.studio.tasks import FIT_OPTIONS, ROBOT, Step, Task
 
 _LIGHT: Mapping[str | None, Light] = {"parameters": "good", "prediction": "doubtful"}
 _STATE: Mapping[str, Light] = {"good": "good", "doubtful": "doubtful", "undetermined": "bad"}
@@ -59,7 +62,9 @@ async def draw(studio: Studio) -> None:
     fit = studio.read_result(step)
     _draw_stale(studio, step)
     _draw_verdict(fit)
-    _draw_values(fit, studio.read_model(step))
+    names = [one["name"] for one in (*fit["gains"], *fit["parameters"], *fit["loads"])]
+    relations = await studio.ask_viewer("parameter_relations", step.model_file, names)
+    _draw_values(fit, relations)
     _draw_choices(fit)
     elements.add_page_button(studio, step)
     elements.add_go_button(studio, "Diagnose", "missing")
@@ -85,51 +90,58 @@ def find_lost_effects(studio: Studio, task: Task) -> Iterator[str]:
 
 
 def _draw_advanced(chosen: dict[str, Any], renew: Callable[[], None]) -> None:
-    """Estimator, band, weights: what there is, and what is taken where nothing is said."""
-    every = [*ABOUT.values(), *(about for about in APART if about.id == TWO_STEPS)]
+    """Options of the fit, as `FitOptions` declares them, and its effects."""
+    abouts = {about.id: about for about in (*ABOUT.values(), *APART) if about.id != "tls"}
 
     def store_choice(name: str, value: Any) -> None:
         chosen[name] = value
         renew()
-        _draw_estimator.refresh()
+        draw_estimator.refresh()
 
     @ui.refreshable  # type: ignore[untyped-decorator, unused-ignore]
-    def _draw_estimator() -> None:
-        about = next((a for a in every if a.id == chosen.get("method")), every[0])
-        facts = {"what it solves": about.law, "source": about.source,
-                "the wrong one": about.limitations, "of the motion": about.motion}  # fmt: skip
+    def draw_estimator() -> None:
+        about = abouts[chosen.get("method") or FitOptions.method]
         ui.label(about.title).classes("studio-part")
+        facts = {"what it solves": about.law, "source": about.source}
+        facts |= {"not suitable": about.avoid, "of the motion": about.motion}
         elements.draw_table(("", ""), list(facts.items()))
 
     with ui.expansion("Advanced: estimator, band, effects").classes("w-full studio-folded"):
         with ui.row().classes("items-end w-full"):
-            names = {"": f"{every[0].title} (default)"}
-            names |= {about.id: about.title for about in every[1:]}
-            fields = {
-                "method": ui.select(names, label="estimator", value="").classes("w-80"),
-                "derivatives": ui.select(
-                    ["", "log", "position"], label="velocities from", value=""
-                ),
-                **{name: ui.number(label, min=0, placeholder="chosen")
-                   for name, label in _NUMBERS.items()},
-            }  # fmt: skip
-            for name, field in fields.items():
-                field.value = chosen.get(name, field.value)
-                field.on_value_change(lambda e, to=name: store_choice(to, e.value)).classes(
-                    "min-w-48"
-                )
+            for option in FIT_OPTIONS:
+                titles = {id: about.title for id, about in abouts.items()}
+                field = _add_option(option, titles if option.name == "method" else {})
+                field.classes("min-w-48").tooltip(option.metadata["help"])
+                field.value = chosen.get(option.name, field.value)
+                field.on_value_change(lambda e, to=option.name: store_choice(to, e.value))
             label = "effects, in place of the robot file's"
             chosen_effects = list(chosen.get("effects", ()))
             effects = ui.select(list(EFFECTS), label=label, multiple=True, value=chosen_effects)
             effects.on_value_change(lambda e: store_choice("effects", tuple(e.value or ())))
             effects.classes("w-96").props("use-chips clearable")
-        _draw_estimator()
+        draw_estimator()
 
 
-_NUMBERS = {
-    "cutoff": "position filter [Hz]", "parallel_cutoff": "parallel filter [Hz]",
-    "low_speed": "low speed [share of top]", "essential_below": "essential below [% sigma]",
-}  # fmt: skip
+def _add_option(option: dataclasses.Field[Any], titles: Mapping[str, str]) -> Any:
+    """A menu where the option has few values, else a number; without a choice the default counts.
+
+    Args:
+        option: of `FitOptions`.
+        titles: of its values; empty: those that its type allows.
+    """
+    label, default = option.name.replace("_", " "), option.default
+    if isinstance(default, str):
+        titles = titles or {
+            name: name for name in get_args(get_type_hints(FitOptions)[option.name])
+        }
+        names = {name: title for name, title in titles.items() if name != default}
+        return ui.select({"": f"{titles[default]} (default)", **names}, label=label, value="")
+    unit = _UNITS[option.metadata["unit"]]
+    usual = "from the logs" if default is None else f"{default:g}"
+    return ui.number(f"{label} [{unit}]", min=0, placeholder=usual)
+
+
+_UNITS = {"HZ": "Hz", "PERCENT": "%", "SHARE": "share"}
 
 
 def _draw_stale(studio: Studio, step: Step) -> None:
@@ -170,11 +182,9 @@ def _draw_verdict(fit: Mapping[str, Any]) -> None:
         elements.draw_folded("Notes", [*fit["sentences"], *fit.get("undetectable_faults", ())])
 
 
-def _draw_values(fit: Mapping[str, Any], model: Mapping[str, Any]) -> None:
+def _draw_values(fit: Mapping[str, Any], relations: Mapping[str, str]) -> None:
     """The parameters with their sigmas, drawn among those of the same unit."""
     parameters = [*fit["gains"], *fit["parameters"], *fit["loads"]]
-    every = [build_instance(BaseSpec, raw) for raw in model["manifest"]["base"]]
-    sums = {base.name: format_relation(base) for base in every}
     tops: dict[str, float] = {}
     for p in parameters:
         tops[p["unit"]] = max(tops.get(p["unit"], 0.0), abs(p["value"]) + (p["sigma"] or 0.0))
@@ -184,13 +194,13 @@ def _draw_values(fit: Mapping[str, Any], model: Mapping[str, Any]) -> None:
             "is underlined shows what it is the sum of. Grey: the model does as well without."
         ).classes("studio-soft")
         heads = ("parameter", "value", "sigma", "% sigma", "unit", "")
-        rows = [_format_row(p, sums.get(p["name"], ""), tops[p["unit"]]) for p in parameters]
+        rows = [_format_row(p, relations.get(p["name"], ""), tops[p["unit"]]) for p in parameters]
         elements.draw_table(heads, rows, [not p["essential"] for p in parameters])
 
 
 def _format_row(p: Mapping[str, Any], relation: str, top: float) -> Sequence[str]:
     name, value, sigma = p["name"], p["value"], p["sigma"]
-    shown = f"{name}\t{name} = {relation}" if relation else name
+    shown = f"{name}\t{relation}" if relation else name
     if sigma is None:
         return (shown, "set aside", "", "", p["unit"], "")
     share = p["relative_sigma_percent"]

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.errors import DataError
-from modeler.core.manifest import JointSpec
-from modeler.logs import (
+from modeler.api.front_end import (
+    DataError,
+    JointSpec,
     LogMap,
     MappedColumn,
     build_map,

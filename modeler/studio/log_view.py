@@ -10,22 +10,18 @@ import numpy as np
 from nicegui import ui
 from nicegui.element import Element
 
-from modeler.core.errors import ModelerError
-from modeler.core.figure import (
-    BLACK,
-    BLUE,
-    GREEN,
-    ORANGE,
-    PINK,
-    VERMILLION,
+from modeler.api.front_end import (
+    COLORS,
     Curve,
+    JointSpec,
+    ModelerError,
     Panel,
     Picture,
     Style,
+    locate_resources,
+    parse_toml,
+    read_text,
 )
-from modeler.core.files import locate_resources, read_text
-from modeler.core.json import parse_toml
-from modeler.core.manifest import JointSpec
 from modeler.studio import figures, timeline
 from modeler.studio.elements import (
     add_card,
@@ -228,7 +224,7 @@ class MappingTable:
         await self.changed(self.chosen)
 
 
-_COLORS = (BLUE, VERMILLION, GREEN, ORANGE, PINK, BLACK)  # SKY is what BLUE is in the dark
+_COLORS = (*COLORS[:5], *COLORS[6:])  # without sky, which blue is in the dark
 _PANELS = {"q": "position", "qd": "speed", "tau": "torque or force", "current": "current"}
 _SPEEDS = {speed: f"{speed:g} x" for speed in (0.1, 0.5, 1.0, 2.0, 5.0)}
 _ABSENT = (
@@ -337,7 +333,7 @@ class LogView:
             self.window or (-np.inf, np.inf),
             THRESHOLDS.all_curve_points // max(1, len(names)),
         )
-        more = (self.known.clock, "", min(points, THRESHOLDS.curve_points))
+        more = (self.known.clock, "", points)
         raw = await self._ask_viewer("log_window", names, *window, *more, kind="window")
         if raw is not None:
             self._plot.update_figure(figures.build_figure(self._build_picture(raw), self.file))

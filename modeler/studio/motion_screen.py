@@ -2,13 +2,11 @@
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nicegui import ui
 
-from modeler import excitation
-from modeler.core.errors import ModelerError
-from modeler.robot import parse_robot_text
+from modeler.api.front_end import ModelerError, format_percent, parse_robot_text
 from modeler.studio import figures
 from modeler.studio.elements import (
     add_card,
@@ -19,11 +17,13 @@ from modeler.studio.elements import (
     draw_stale_warnings,
     draw_table,
 )
-from modeler.studio.robot_views import MotionPreview
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import Step, Task
 from modeler.studio.thresholds import THRESHOLDS
 from modeler.studio.timeline import Timeline
+
+if TYPE_CHECKING:  # who only draws loads nothing that computes
+    from modeler.studio.robot_views import MotionPreview
 
 _ALL = ""  # the question that has no two effects
 _USED = ("lower", "upper", "speed", "acceleration", "torque")
@@ -172,12 +172,15 @@ def _describe_separation(separation: Mapping[str, Any] | None) -> list[str]:
     """How well two effects are distinguished along the motion."""
     if not separation:
         return []
-    (one, a), (other, b) = separation.items()
-    shares = ((a[key], b[key]) for key in ("unexplained_share", "random_share", "gain"))
-    return excitation.Discrimination((one, other), *shares).format_lines()
+    return [
+        f"{name}: {format_percent(each['left'])} of its torque is explained by neither the model "
+        f"nor {other}; best of the random motions {format_percent(each['left_random'])}; that part "
+        f"is {each['gain']:.3g} times as large"
+        for (name, each), other in zip(separation.items(), [*separation][::-1], strict=True)
+    ]
 
 
-async def _draw_motion(studio: Studio, step: Step, look: MotionPreview) -> None:
+async def _draw_motion(studio: Studio, step: Step, look: "MotionPreview") -> None:
     """The motion in 3-D and over time, with one cursor."""
     name = step.output
     with ui.element("div").classes("studio-split"):

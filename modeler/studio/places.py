@@ -9,8 +9,7 @@ from dataclasses import dataclass, replace
 from glob import escape
 from pathlib import Path
 
-from modeler.core.choices import LOG_ENDINGS, OTHER_PROGRAMS
-from modeler.core.errors import DataError, ModelerError
+from modeler.api.front_end import LOG_ENDINGS, OTHER_PROGRAMS, DataError, ModelerError
 from modeler.studio.project import FOLDERS, Project
 from modeler.studio.tasks import MAKING
 

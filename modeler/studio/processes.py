@@ -18,8 +18,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeler.core.errors import DataError, ModelerError, flatten_message, is_out_of_memory
-from modeler.core.jobs import block_interrupts, exit_with_parent
+from modeler.api.front_end import (
+    DataError,
+    ModelerError,
+    block_interrupts,
+    exit_with_parent,
+    flatten_message,
+    is_out_of_memory,
+)
 from modeler.studio import places
 from modeler.studio.thresholds import THRESHOLDS
 

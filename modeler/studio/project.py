@@ -21,10 +21,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from modeler.core.errors import DataError, ModelerError
-from modeler.core.files import read_text, write_atomically
-from modeler.core.json import SchemaError, build_instance, parse_toml
-from modeler.runtime import find_cache_folder
+from modeler.api.front_end import (
+    DataError,
+    ModelerError,
+    build_instance,
+    find_cache_folder,
+    parse_toml,
+    read_text,
+    write_atomically,
+)
 from modeler.studio.tasks import (
     ABOUT_A_MODEL,
     MAKING,
@@ -181,7 +186,7 @@ def parse_project(text: str, where: str) -> Project:
         project: Project = build_instance(Project, parse_toml(text))
         _check_project(project)
         return project
-    except (SchemaError, ValueError, DataError) as error:
+    except (ValueError, DataError) as error:
         raise DataError(
             f"{where}: {error}; expected a file that `modeler studio` wrote; mend it, or move it "
             "away to begin anew beside the same files"

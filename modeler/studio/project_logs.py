@@ -6,11 +6,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from modeler.core.errors import ModelerError
-from modeler.core.files import read_text
-from modeler.core.json import select_attributes
-from modeler.core.manifest import JointSpec
-from modeler.logs import parse_map_options
+from modeler.api.front_end import JointSpec, ModelerError, parse_map_options, read_text
 from modeler.studio.log_mapping import (
     ColumnChoice,
     LogGuess,
@@ -104,8 +100,10 @@ class ProjectLogs:
                 else tuple(setting_words)
             )
             facts = await self.studio.ask_viewer("log_facts", self.resolve_path(file), clock)
-            changes = {"ends": (facts.start, facts.end), **select_attributes(facts, "rows units")}
-            self.logs[file] = replace(known, clock=clock, **changes)
+            ends = facts.start, facts.end
+            self.logs[file] = replace(
+                known, clock=clock, ends=ends, rows=facts.rows, units=facts.units
+            )
         except ModelerError as error:
             self.logs[file] = KnownLog(error=str(error))
 

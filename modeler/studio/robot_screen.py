@@ -8,35 +8,40 @@ import time
 from collections.abc import Awaitable, Callable
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nicegui import background_tasks, ui
 
-from modeler.core.choices import CONVENTIONS, TEMPLATES, list_builtin_robots, read_builtin_robot
-from modeler.core.errors import ModelerError
-from modeler.core.files import write_atomically
-from modeler.robot import (
+from modeler.api.front_end import (
+    CONVENTIONS,
+    TEMPLATES,
+    ModelerError,
     TableText,
     build_pasted_robot,
     find_table_text,
     insert_pasted_table,
     insert_row,
+    list_builtin_robots,
     parse_pasted_cells,
     parse_pasted_table,
+    read_builtin_robot,
     read_table_convention,
     remove_row,
     replace_cell,
     replace_limits,
     replace_symbol,
     set_joint_effect,
+    write_atomically,
 )
 from modeler.studio.elements import RobotFrame, add_card, add_run_button, draw_head
 from modeler.studio.file_inputs import add_drop_zone, choose_files
 from modeler.studio.project import DRAFT
-from modeler.studio.robot_views import BASIC_EFFECTS, RobotPreview
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import ROBOT, Step, Task
 from modeler.studio.thresholds import THRESHOLDS
+
+if TYPE_CHECKING:  # who only draws loads nothing that computes
+    from modeler.studio.robot_views import RobotPreview
 
 
 class RobotText:
@@ -221,6 +226,9 @@ async def _take_command_robot(studio: Studio, task: Task, on_taken: Taken) -> No
         with room:
             await on_taken(studio.read_text(ROBOT), ())
 
+
+BASIC_EFFECTS = ("rotor_inertia", "viscous", "coulomb", "offset")
+"""Columns of the grid of effects."""
 
 _LIMITS = ("joint", "lower", "upper", "speed", "acceleration")
 
@@ -475,7 +483,7 @@ class _RobotEditor:
         except ModelerError as error:
             self._show_error(str(error))
 
-    async def _show_preview(self, look: RobotPreview, all_cells: bool) -> None:
+    async def _show_preview(self, look: "RobotPreview", all_cells: bool) -> None:
         if self.editor.value != self.document.text:
             self.editor.set_value(self.document.text)
         before = self.look
@@ -516,7 +524,7 @@ class _RobotEditor:
         words = ", ".join(map(json.dumps, (self.cells.html_id, joint)))
         self.cells.client.run_javascript(f"focusRow({words})")
 
-    def _show_cells(self, look: RobotPreview, all_cells: bool) -> None:
+    def _show_cells(self, look: "RobotPreview", all_cells: bool) -> None:
         if look.table is None:
             return
         names = look.names or (self.look.names if self.look else ())
@@ -532,7 +540,9 @@ class _RobotEditor:
             fixed=0,
         )
 
-    def _show_named_tables(self, good: RobotPreview, look: RobotPreview, all_cells: bool) -> None:
+    def _show_named_tables(
+        self, good: "RobotPreview", look: "RobotPreview", all_cells: bool
+    ) -> None:
         """The tables of limits and letters; `good` is the last text in which nothing was wrong."""
         joints = [joint.name for joint in good.joints]
         limits = [(f"{j.name} [{j.unit}]", *self.limits.get(j.name, j.limits)) for j in good.joints]
@@ -549,7 +559,7 @@ class _RobotEditor:
                          line=look.error, reading=self.studio.is_read_only, names=names,
                          fixed=1)  # fmt: skip
 
-    def _show_effects(self, look: RobotPreview) -> None:
+    def _show_effects(self, look: "RobotPreview") -> None:
         self.effects.clear()
         with self.effects, ui.element("table").classes("studio-grid"):
             with ui.element("thead"), ui.element("tr"):

@@ -11,25 +11,19 @@ from typing import Any
 
 import numpy as np
 
-from modeler import excitation, simulation
-from modeler.core.errors import ModelerError
-from modeler.core.figure import COLORS, GREY, Curve, Panel, Picture, Style
-from modeler.core.files import read_file
-from modeler.core.json import parse_json
-from modeler.formats import read_robot
-from modeler.robot import (
-    Robot,
+from modeler.api import Robot, open_robot, previews
+from modeler.api.front_end import (
+    ModelerError,
+    Picture,
     TableText,
     find_table_text,
     locate_error_cell,
+    parse_json,
     parse_robot_text,
     read_limit_texts,
     read_symbol_texts,
+    read_text,
 )
-from modeler.views import build_page_content, render_relations, render_robot_page, show
-
-BASIC_EFFECTS = ("rotor_inertia", "viscous", "coulomb", "offset")
-"""Columns of the grid of effects."""
 
 
 @dataclass(frozen=True)
@@ -88,8 +82,7 @@ def robot_look(text: str, where: str = "robot.toml") -> RobotPreview:
     table = find_table_text(text)
     try:
         robot = parse_robot_text(text, where)
-        shown = show(robot)
-        content = build_page_content(shown.skeleton, shown.posture)
+        content = previews.build_robot_content(robot)
     except ModelerError as error:
         match = re.search(r": \[(symbols|limits)\], \"?(\w+)", str(error))
         named_entry = match.groups() if match else ()
@@ -112,22 +105,18 @@ def robot_look(text: str, where: str = "robot.toml") -> RobotPreview:
 
 def robot_page(text: str) -> str:
     """Returns the page of `modeler show`."""
-    shown = show(parse_robot_text(text, "robot.toml"))
-    return render_robot_page(shown.skeleton, shown.posture)
+    return previews.render_robot(parse_robot_text(text, "robot.toml"))
 
 
 def relations_of(result: str, place: str) -> tuple[str, dict[str, Any]]:
-    """Returns the base parameters of a derivation as HTML, and its other facts.
+    """Returns the base parameters of a derivation as HTML, and the JSON.
 
     Args:
         result: file of the result.
         place: of the robot file that was derived.
     """
-    derivation = parse_json(read_file(Path(result)))
-    facts = {
-        key: derivation[key] for key in ("rank", "counts", "proof", "rank_gap", "unidentifiable")
-    }
-    return render_relations(derivation, read_robot(place)), facts
+    derivation = parse_json(read_text(Path(result)))
+    return previews.render_relations(derivation, open_robot(place)), derivation
 
 
 # Motions that a robot is to drive.
@@ -155,61 +144,21 @@ def motion_look(place: str, result: str) -> MotionPreview:
         place: file of the motion.
         result: file of the result.
     """
-    joints, motion = _read_motion(place, result)
-    panels = []
-    for title, of, label in (
-        ("position", motion.q, "of its range"),
-        ("speed", motion.qd, "of the limit"),
-        ("acceleration", motion.qdd, "of the limit"),
-    ):
-        curves = [
-            Curve(
-                f"joint {name}",
-                motion.time,
-                _normalise_to_limits(title, of[:, j], limits),
-                _choose_style(j),
-            )
-            for j, (name, limits) in enumerate(joints.items())
-        ]
-        ends = motion.time[[0, -1]]
-        edges = Curve("limits", np.array([*ends, np.nan, *ends]), _SIDES, _EDGE)
-        label = f"{title}, {label}"
-        series = (*curves, edges)
-        panels.append((Panel("", "time [s]", label, series, y_range=(-1.1, 1.1), zero=True),))
-    picture = Picture("motion", "", "Shares of the limits of each joint; the dashed lines are the "
-                      "limits.", tuple(panels), 560, shared_time=True)  # fmt: skip
-    q = {name: motion.q[:, j] for j, name in enumerate(joints)}
-    return MotionPreview(motion.time, q, picture)
+    limits = _read_limits(result)
+    motion = previews.read_motion(place, list(limits))
+    q = {name: motion.q[:, j] for j, name in enumerate(limits)}
+    return MotionPreview(motion.time, q, previews.draw_motion(motion, limits))
 
 
 def motion_parquet(place: str, result: str) -> bytes:
     """Returns a motion as a Parquet file."""
-    joints, motion = _read_motion(place, result)
-    columns = {"time": motion.time}
-    for name, of in (("q", motion.q), ("qd", motion.qd), ("qdd", motion.qdd)):
-        columns |= {f"{name}{joint}": of[:, j] for j, joint in enumerate(joints)}
-    return excitation.encode_parquet(columns)
+    return previews.encode_motion(place, list(_read_limits(result)))
 
 
-_SIDES = np.array([1.0, 1.0, np.nan, -1.0, -1.0])
-_EDGE = Style(GREY, 1.0, dash=True)
-
-
-def _choose_style(number: int) -> Style:
-    return Style(COLORS[number % len(COLORS)], dash=number >= len(COLORS))
-
-
-def _read_motion(place: str, result: str) -> tuple[dict[str, Any], simulation.Reference]:
-    joints = parse_json(read_file(Path(result)))["joints"]
-    return joints, simulation.read_motion(place, list(joints))
-
-
-def _normalise_to_limits(what: str, values: np.ndarray, limits: dict[str, Any]) -> np.ndarray:
-    """-1 to 1 within the limits."""
-    if what != "position":
-        return values / float(limits[what]["limit"])
-    lower, upper = limits["lower"]["limit"], limits["upper"]["limit"]
-    return (2.0 * values - lower - upper) / (upper - lower)
+def _read_limits(result: str) -> dict[str, Any]:
+    """Joints of a motion, with what it uses of their limits."""
+    joints: dict[str, Any] = parse_json(read_text(Path(result)))["joints"]
+    return joints
 
 
 def _locate_error(error: str, text: str, table: TableText | None) -> tuple[int, int] | None:
@@ -237,7 +186,7 @@ def _describe_joints(robot: Robot) -> tuple[JointFacts, ...]:
     return tuple(
         JointFacts(
             joint.name, joint.actuated, joint.unit,
-            tuple(effect for effect in BASIC_EFFECTS if robot.has_effect(effect, joint.name)),
+            tuple(use.effect for use in robot.effects if robot.has_effect(use.effect, joint.name)),
             limits.get(joint.name, ("", "", "", "")),
         )
         for joint in shown

@@ -17,9 +17,7 @@ from typing import Any
 from nicegui import background_tasks, ui
 from nicegui.element import Element
 
-from modeler.core.errors import DataError, ModelerError
-from modeler.core.files import read_text, write_atomically
-from modeler.core.json import JsonError, parse_json
+from modeler.api.front_end import DataError, ModelerError, parse_json, read_text, write_atomically
 from modeler.studio import commands
 from modeler.studio.places import Roots
 from modeler.studio.processes import RunningCommand, Viewer
@@ -381,7 +379,7 @@ class Studio:
     def _read_json(self, file: str) -> dict[str, Any]:
         try:
             content: dict[str, Any] = parse_json(self.read_text(file))
-        except JsonError as error:
+        except ValueError as error:
             raise DataError(f"{file}: {error}; take the step again") from None
         return content
 

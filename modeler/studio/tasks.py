@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from modeler.core.errors import DataError
+from modeler.api.front_end import DataError, FitOptions
 
 ROBOT: Literal["robot.toml"] = "robot.toml"
 
@@ -90,8 +90,9 @@ class Task:
         logs: that are fitted, compared or searched.
         held: logs that are only judged on.
         mapping: words of `--map`.
-        method, derivatives, cutoff, parallel_cutoff, low_speed, essential_below, effects: of a fit,
-            as its options.
+        method, derivatives, cutoff, parallel_cutoff, low_speed, essential_below: of a fit, as
+            `FitOptions` has them.
+        effects: of a fit, in place of the robot file's.
         effect: that is added; auto: all that a diagnosis names.
         joint: of the effect; "": where it explains most.
         without: effects that this robot does not have.
@@ -142,6 +143,14 @@ class Task:
         at = f"{self.effect}@{self.joint}" if self.joint else self.effect
         what = at or self.file or self.between or self.to or self.like
         return " ".join(filter(None, (self.verb, what, f"of step {self.step}" * bool(self.step))))
+
+
+FIT_OPTIONS = tuple(
+    option
+    for option in dataclasses.fields(FitOptions)
+    if option.name in {field.name for field in dataclasses.fields(Task)}
+)
+"""Options of `modeler fit` that a task has, as they are declared."""
 
 
 @dataclass(frozen=True)
@@ -269,8 +278,7 @@ def _yield_options(task: Task) -> Iterator[str]:
 # What the values of a task may be, whoever wrote them.
 
 FIELDS: Mapping[str, str] = {
-    "fit": "logs mapping method derivatives cutoff parallel_cutoff low_speed essential_below "
-           "effects",
+    "fit": f"logs mapping {' '.join(option.name for option in FIT_OPTIONS)} effects",
     "add": "logs held mapping effect joint",
     "compare": "logs mapping",
     "contest": "models logs mapping",

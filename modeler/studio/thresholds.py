@@ -21,8 +21,6 @@ class Thresholds:
     """Bytes of the disk that stay free when a file comes in."""
     max_menu_columns: int = 400
     """Columns that a menu lists; others are typed."""
-    curve_points: int = 1500
-    """Points of a curve that is drawn."""
     all_curve_points: int = 14000
     """Points of all curves of a picture."""
     warning_margin: float = 0.02
@@ -47,10 +45,6 @@ class Thresholds:
     """Share of the only log that is held out by default; a convention."""
     cached_results: int = 6
     """Results of one kind that are cached."""
-    coarse_rows: int = 64
-    """Rows of a long log by one least and one largest value."""
-    max_whole_values: int = 25000000
-    """Values of a log that is held as it is: 200 MB."""
 
 
 THRESHOLDS = Thresholds()

@@ -9,7 +9,7 @@ import numpy as np
 from nicegui import ui
 from nicegui.element import Element
 
-from modeler.core.files import locate_resources
+from modeler.api.front_end import locate_resources
 from modeler.studio.project import ProjectLog
 from modeler.studio.tasks import TimeRange
 from modeler.studio.thresholds import THRESHOLDS

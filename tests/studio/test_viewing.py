@@ -16,7 +16,9 @@ import pyarrow as pa
 import pyarrow.parquet
 import pytest
 
-from modeler.api import checks
+from modeler.api import checks, log_windows
+from modeler.api.model_on_logs import compute_explained_share
+from modeler.api.thresholds import THRESHOLDS
 from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError
 from modeler.core.figure import Curve, Means, thin_curves
@@ -89,14 +91,13 @@ def test_a_window_of_a_log_has_its_rows_and_its_extremes(folder) -> None:
     assert set(clock[rows]) <= set(x)
     np.testing.assert_array_equal(y[np.isin(x, clock[rows])], q1[rows])
     x, y = viewing.log_window("a.parquet", ["q1"], -np.inf, np.inf)["q1"]
-    assert x.size <= viewing.THRESHOLDS.curve_points and (y.min(), y.max()) == (q1.min(), q1.max())
+    assert x.size <= THRESHOLDS.curve_points and (y.min(), y.max()) == (q1.min(), q1.max())
 
 
 @pytest.mark.parametrize("kind", ["parquet", *rotating("csv")])
 def test_a_long_log_is_seen_coarsely_then_closely(tmp_path, monkeypatch, kind: str) -> None:
-    monkeypatch.setattr(
-        viewing, "THRESHOLDS", dataclasses.replace(viewing.THRESHOLDS, max_whole_values=1)
-    )
+    small = dataclasses.replace(THRESHOLDS, max_whole_values=1)
+    monkeypatch.setattr(log_windows, "THRESHOLDS", small)
     place, clock = tmp_path / f"long.{kind}", np.arange(LONG + 40_000) * 1e-3
     q1 = np.sin(0.3 * clock) + 1e-4 * np.random.default_rng(8).normal(size=clock.size)
     q1[clock.size // 3] = 9.0  # a single spike
@@ -110,9 +111,7 @@ def test_a_long_log_is_seen_coarsely_then_closely(tmp_path, monkeypatch, kind: s
     assert facts.coarse and facts.rows == clock.size
     assert abs(facts.end - clock[-1]) < 1e-9
     x, y = viewing.log_window(str(place), ["q1"], -np.inf, np.inf)["q1"]
-    assert (
-        x.size <= viewing.THRESHOLDS.curve_points and abs(y.max() - 9.0) < 1e-6
-    )  # one row of 290 000
+    assert x.size <= THRESHOLDS.curve_points and abs(y.max() - 9.0) < 1e-6  # one row of 290 000
     at = clock[clock.size // 3]
     x, y = viewing.log_window(str(place), ["q1"], at - 0.2, at + 0.2)["q1"]
     rows = np.abs(clock - at) < 0.1905
@@ -211,17 +210,15 @@ def test_explained_shares_are_those_of_what_was_put_in() -> None:
     rng = np.random.default_rng(time.time_ns() % 2**32)
     n = 20_000
     x, noise = rng.uniform(-1.0, 1.0, n), rng.normal(size=n)
-    assert viewing.compute_explained_share(x, noise) < 0.01
+    assert compute_explained_share(x, noise) < 0.01
     signal = np.where(x > 0.0, 1.0, -1.0)  # of variance 1, as the noise
-    assert abs(viewing.compute_explained_share(x, signal + noise) - 0.5) < 0.03
-    assert (
-        abs(viewing.compute_explained_share(np.sign(x), signal + noise) - 0.5) < 0.03
-    )  # two values
-    assert np.isnan(viewing.compute_explained_share(np.ones(n), noise)) and np.isnan(
-        viewing.compute_explained_share(x[:9], x[:9])
+    assert abs(compute_explained_share(x, signal + noise) - 0.5) < 0.03
+    assert abs(compute_explained_share(np.sign(x), signal + noise) - 0.5) < 0.03  # two values
+    assert np.isnan(compute_explained_share(np.ones(n), noise)) and np.isnan(
+        compute_explained_share(x[:9], x[:9])
     )
-    slow = np.convolve(noise, np.ones(500), "same")  # autocorrelated: no function of a slow channel
-    assert viewing.compute_explained_share(np.arange(n) * 1e-3, slow) < 0.1
+    slow = np.convolve(noise, np.ones(500), "same")  # remembers: no function of a slow channel
+    assert compute_explained_share(np.arange(n) * 1e-3, slow) < 0.1
 
 
 def test_the_map_shows_which_joint_follows_what(comparison) -> None:
