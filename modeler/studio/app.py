@@ -6,7 +6,9 @@ import socket
 import zipfile
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
+from typing import Any
 from urllib.parse import quote
 
 import uvicorn
@@ -33,6 +35,7 @@ from modeler.studio import (
 )
 from modeler.studio.access import REPORTS, Guard
 from modeler.studio.commands import build_command_words
+from modeler.studio.elements import add_button, draw_command_line, draw_head, draw_note
 from modeler.studio.places import lock_folder
 from modeler.studio.project import FOREIGN, Project, ProjectLog, Workspace
 from modeler.studio.studio import Hub, Studio
@@ -44,45 +47,49 @@ _RUNS = (("logs/train.parquet", 1), ("logs/held_out.parquet", 2))
 
 async def draw_start(studio: Studio) -> None:
     """Draws the screen on which a project starts."""
-    ui.label("Your robot's real dynamics").classes("studio-head")
-    ui.label(
+    draw_head(
+        "Your robot's real dynamics",
         "Compare a model with measurements, see where it fails, learn which physical effect is "
-        "missing, add it, and watch the error fall."
-    ).classes("studio-soft")
+        "missing, add it, and watch the error fall.",
+    )
+    acts: tuple[Callable[[], Any], ...] = (
+        partial(open_demo, studio),
+        partial(studio.open_screen, "robot"),
+        partial(studio.open_screen, "data"),
+    )
     with ui.row().classes("studio-choices"):
-        _add_start_button(
-            "Try the demo", "play_circle",
-            "An arm with three joints, two measured runs, and an effect that its model lacks.",
-            lambda: open_demo(studio),
-        )  # fmt: skip
-        _add_start_button(
-            "Start from a table", "precision_manufacturing",
-            "Paste the table of a paper, open a URDF, MJCF or .par, or take a built-in robot.",
-            lambda: studio.open_screen("robot"),
-        )  # fmt: skip
-        _add_start_button(
-            "Start from a log", "show_chart",
-            "CSV, Parquet, MAT, HDF5, MCAP, ROS bags, sheets: see what is in it.",
-            lambda: studio.open_screen("data"),
-        )  # fmt: skip
+        for (title, icon, text), act in zip(_STARTS, acts, strict=True):
+            face = ui.button(on_click=act).props("flat no-caps").classes("studio-choice")
+            with face, ui.column():
+                ui.icon(icon, size="2.5rem")
+                ui.label(title).classes("studio-choice-title")
+                draw_note(text)
 
 
-def _add_start_button(title: str, icon: str, text: str, act: Callable[[], object]) -> None:
-    with ui.button(on_click=act).props("flat no-caps").classes("studio-choice"), ui.column():
-        ui.icon(icon, size="2.5rem")
-        ui.label(title).classes("studio-choice-title")
-        ui.label(text).classes("studio-soft")
+_STARTS = (
+    (
+        "Try the demo",
+        "play_circle",
+        "An arm with three joints, two measured runs, and an effect that its model lacks.",
+    ),
+    (
+        "Start from a table",
+        "precision_manufacturing",
+        "Paste the table of a paper, open a URDF, MJCF or .par, or take a built-in robot.",
+    ),
+    (
+        "Start from a log",
+        "show_chart",
+        "CSV, Parquet, MAT, HDF5, MCAP, ROS bags, sheets: see what is in it.",
+    ),
+)
 
 
 async def open_demo(studio: Studio) -> None:
     """Opens the demonstration; shows errors in the window."""
-    try:
-        if studio.is_read_only:
-            raise ModelerError(studio.read_only_reason)
+    with studio.show_errors():
+        studio.check_writable()
         await begin_demo(studio.hub)
-    except ModelerError as error:
-        studio.show_error(str(error))
-    else:
         if studio.screen == "start":  # nobody has gone elsewhere meanwhile
             studio.open_screen("data")
 
@@ -144,9 +151,8 @@ def serve(
     with ExitStack() as resources, socket.socket() as server_socket:
         workspace = Workspace(folder, writable=resources.enter_context(lock_folder(folder)))
         try:
-            server_socket.setsockopt(
-                socket.SOL_SOCKET, socket.SO_REUSEADDR, 1
-            )  # one that ended may linger
+            # One that ended may linger.
+            server_socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             server_socket.bind(("127.0.0.1", port))
             server_socket.listen()  # who comes before all is ready waits
         except OSError as error:
@@ -160,14 +166,15 @@ def serve(
         _add_routes(inner, hub)
         _add_pages(hub, demo)
         ui.run_with(
-            inner, title="modeler studio", dark=None, show_welcome_message=False,
+            inner,
+            title="modeler studio",
+            dark=None,
+            show_welcome_message=False,
             reconnect_timeout=THRESHOLDS.ping_timeout,
-        )  # fmt: skip
+        )
         guard = Guard(inner, server_socket.getsockname()[1])
         config = uvicorn.Config(guard, log_level="warning", lifespan="on")
-        nicegui_app.on_startup(
-            lambda: hub.viewer.ask("forget")
-        )  # it is there when the first page asks
+        nicegui_app.on_startup(hub.viewer.launch)  # it is there when the first page asks
         warning = FOREIGN.format(folder) if workspace.foreign else ""
         on_ready(guard.address, guard.one_time_address, warning)
         try:
@@ -276,23 +283,15 @@ def _draw_navigation(studio: Studio) -> None:
         ui.label(studio.folder.name).classes("studio-title")
         buttons = {}
         for number, (name, (title, _)) in enumerate(JOBS.items(), start=1):
-            button = ui.button(
-                f"{number}  {title}", on_click=lambda _, to=name: studio.open_screen(to)
-            )
-            buttons[name] = button.props(f"flat no-caps align=left accesskey={number}")
+            act, props = partial(studio.open_screen, name), f"flat align=left accesskey={number}"
+            buttons[name] = add_button(f"{number}  {title}", act, props)
 
         def update_marks() -> None:
             done = _find_done_jobs(studio.project)
             for name, button in buttons.items():
-                here = "studio-here", "aria-current=page"
-                if name == studio.screen:
-                    button.classes(here[0]).props(here[1])
-                else:
-                    button.classes(remove=here[0]).props(remove=here[1])
-                if name in done:
-                    button.props("icon-right=check")
-                else:
-                    button.props(remove="icon-right=check")
+                here = "add" if name == studio.screen else "remove"
+                button.classes(**{here: "studio-here"}).props(**{here: "aria-current=page"})
+                button.props(**{"add" if name in done else "remove": "icon-right=check"})
 
         studio.listeners.append(update_marks)
         update_marks()
@@ -316,16 +315,11 @@ def _draw_status(studio: Studio) -> None:
             ui.spinner(size="sm")
             doing = ui.label()
             bar = ui.linear_progress(show_value=False).classes("studio-bar")
-            ui.button("Cancel", on_click=lambda: _cancel(studio)).props("dense flat no-caps")
+            add_button("Cancel", lambda: _cancel(studio), "dense flat")
         with ui.row().classes("items-center w-full no-wrap") as last:
-            ui.label("last command").classes("studio-soft")
-            line = ui.label().classes("studio-command")
-            ui.button(icon="content_copy", on_click=lambda: ui.clipboard.write(line.text)).props(
-                "dense flat round aria-label='copy the command'"
-            )
-            ui.button("All commands", on_click=lambda: _show_commands(studio)).props(
-                "dense flat no-caps"
-            )
+            draw_note("last command")
+            line = draw_command_line("")
+            add_button("All commands", lambda: _show_commands(studio), "dense flat")
         with ui.row().classes("items-center w-full") as reading:
             why = ui.label().classes("studio-doubtful")
             over = ui.button(on_click=lambda: _take_over(studio)).props("dense no-caps")
@@ -337,11 +331,9 @@ def _draw_status(studio: Studio) -> None:
             running.visible = hub.running is not None
             if hub.running is not None:
                 doing.text = f"{hub.running.title}: {hub.running.doing}"
-                bar.props(remove="indeterminate")
-                if hub.running.share is None:
-                    bar.props("indeterminate")
-                else:
-                    bar.value = hub.running.share
+                share = hub.running.share
+                bar.props(**{"add" if share is None else "remove": "indeterminate"})
+                bar.value = bar.value if share is None else share
             steps = studio.project.steps
             words = hub.last or (build_command_words(studio.project, steps[-1]) if steps else ())
             last.visible = bool(words) and hub.running is None
@@ -358,10 +350,8 @@ def _draw_status(studio: Studio) -> None:
 def _show_commands(studio: Studio) -> None:
     """What was done, as it would be typed in the folder of the project."""
     project = studio.project
-    lines = [
-        f"{format_command(build_command_words(project, s))}  # {s.seconds:.1f} s"
-        for s in project.steps
-    ]
+    every = ((build_command_words(project, step), step.seconds) for step in project.steps)
+    lines = [f"{format_command(words)}  # {seconds:.1f} s" for words, seconds in every]
     with ui.dialog(value=True), ui.card().classes("studio-card studio-commands"):
         ui.label(f"Commands, in {studio.folder}").classes("studio-part")
         ui.code("\n".join(lines), language="bash")
@@ -374,9 +364,7 @@ def _cancel(studio: Studio) -> None:
 
 def _take_over(studio: Studio) -> None:
     """This window may change things from now on, the others only read."""
-    try:
+    with studio.show_errors():
         if studio.hub.workspace.foreign and studio.hub.workspace.writable:
             studio.hub.workspace.accept()
         studio.hub.give_control(studio)
-    except ModelerError as error:
-        studio.show_error(str(error))

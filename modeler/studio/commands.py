@@ -31,7 +31,7 @@ def fit(project: Project, options: Sequence[tuple[str, Any]] = ()) -> Task:
 
 def compare(project: Project, parts: Sequence[LogPart] = ()) -> Task:
     """Makes the task of a comparison: on held-out ranges, else on training ranges."""
-    logs = tuple(parts) or project.collect_parts("test") or project.collect_parts("train")
+    logs = tuple(parts) or project.collect_judged_parts()
     return Task("compare", logs=logs, mapping=select_guess_mapping(project))
 
 

@@ -1,37 +1,38 @@
 """The screens of residuals of one model, and of several logs and models."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from nicegui import ui
-from nicegui.elements.plotly import Plotly
 
-from modeler.api.front_end import ModelerError, format_percent, read_pictures
+from modeler.api.front_end import format_percent, read_pictures
 from modeler.studio import commands, figures
 from modeler.studio.elements import (
     RobotFrame,
     add_card,
-    add_go_button,
     add_robot_frame,
     add_run_button,
     draw_head,
     draw_lines,
+    draw_note,
     draw_residual_state,
     draw_stale_warnings,
     draw_table,
+    explain_missing,
+    explain_missing_model,
 )
 from modeler.studio.project import ProjectLog
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import LogPart, Step, Task, TimeRange
-from modeler.studio.timeline import Timeline
+from modeler.studio.timeline import add_player
 
 if TYPE_CHECKING:  # who only draws loads nothing that computes
     from modeler.api.model_on_logs import Verdict
 
 _TIME = "fails"  # that all pictures of the screen share
-_SPEEDS = {0.1: "0.1x", 0.5: "0.5x", 1.0: "1x", 2.0: "2x", 5.0: "5x"}
 _ROLES = {"test": "held out", "train": "training"}
 
 
@@ -44,14 +45,11 @@ async def draw_fails(studio: Studio) -> None:
     )
     project = studio.project
     if not project.model_file:
-        ui.label("There is no model yet: fit one first.")
-        add_go_button(studio, "Fit", "fit")
-        return
+        return explain_missing_model(studio)
     roles = {role: name for role, name in _ROLES.items() if project.collect_words(role)}
     if not roles:
-        ui.label("No log has a training or held-out segment: choose some first.")
-        add_go_button(studio, "Data", "data")
-        return
+        line = "No log has a training or held-out segment: choose some first."
+        return explain_missing(studio, line, "Data", "data")
     state = studio.state.setdefault("fails", {})
     if state.get("role") not in roles:
         state["role"] = next(iter(roles))
@@ -81,18 +79,14 @@ async def draw_fails(studio: Studio) -> None:
     if step is not None and step.task == commands.compare(project, logs):
         expansion = ui.expansion("All that the command drew: spectra, waves per turn, shares")
         expansion.classes("w-full").on_value_change(lambda: _draw_more(studio, expansion, step))
+    return None
 
 
 def _draw_more(studio: Studio, place: ui.expansion, step: Step) -> None:
     """Draws what `modeler compare` drew, where that was opened."""
     place.clear()
-    try:
-        pictures = read_pictures(studio.folder / step.pictures_file) if place.value else ()
-    except ModelerError as error:
-        studio.show_error(str(error))
-        return
-    with place:
-        for picture in pictures:
+    with studio.show_errors(), place:
+        for picture in read_pictures(studio.folder / step.pictures_file) if place.value else ():
             if not picture.name.endswith("_time"):  # which stands above
                 figures.draw_picture(picture)
 
@@ -103,13 +97,8 @@ class _FailureView:
     def __init__(
         self, studio: Studio, model: str, logs: list[str], verdict: "Verdict", state: dict[str, Any]
     ) -> None:
-        self.studio, self.model, self.logs, self.verdict, self.state = (
-            studio,
-            model,
-            logs,
-            verdict,
-            state,
-        )
+        self.studio, self.model, self.logs = studio, model, logs
+        self.verdict, self.state = verdict, state
         if state.get("joint") not in verdict.joints:
             errors = [-1.0 if math.isnan(error) else error for error in verdict.errors]
             state["joint"] = verdict.joints[errors.index(max(errors))]
@@ -128,7 +117,10 @@ class _FailureView:
                 self._draw_verdict()
             self.robot = await self._draw_robot()
         with add_card("Measured and predicted"):
-            await self._draw_clock()
+            time, positions = await self.studio.ask_viewer("poses", self.model, self.logs)
+            line = add_player(_TIME, (self.verdict.start, self.verdict.end))
+            line.frame = "" if self.robot is None else self.robot.element_id
+            line.show_motion(time, positions)
             every = ui.switch("all joints", value=self.state.get("every", False))
             every.on_value_change(self._make_store("every", self._draw_torques))
             self.torques = ui.column().classes("w-full gap-2")
@@ -142,37 +134,19 @@ class _FailureView:
                     figures.draw_picture(where).on("plotly_click", self._select_cell)
                 self._select_strongest_channel(heat)
             with ui.column().classes("fails-half"):
-                choice = dict(self.verdict.channels)
-                self.channel = ui.select(
-                    choice, value=self.state["channel"], label="residual over",
-                    on_change=self._make_store("channel", self._draw_residual),
-                ).classes("w-64")  # fmt: skip
+                choice, chosen = dict(self.verdict.channels), self.state["channel"]
+                self.channel = ui.select(choice, value=chosen, label="residual over")
+                self.channel.on_value_change(self._make_store("channel", self._draw_residual))
+                self.channel.classes("w-64")
                 self.residual = ui.column().classes("w-full")
 
     async def _draw_robot(self) -> RobotFrame | None:
         """In 3-D, its joints to be clicked; None where it cannot be drawn."""
-        try:
-            with ui.card().classes("studio-card fails-robot"):
-                frame = await add_robot_frame(self.studio, "100%", alone=True)
-        except ModelerError as error:
-            self.studio.show_error(str(error))
-            return None
-        frame.connect_joint(self._select_joint)
-        return frame
-
-    async def _draw_clock(self) -> None:
-        """The time that all pictures share, played on a line; the robot goes along."""
-        time, positions = await self.studio.ask_viewer("poses", self.model, self.logs)
-        with ui.row().classes("w-full items-center no-wrap"):
-            play = ui.button(icon="play_arrow").props('dense round unelevated aria-label="play"')
-            speed = ui.select(_SPEEDS, value=1.0).props('dense borderless aria-label="speed"')
-            with ui.element("div").classes("col"):
-                line = Timeline(_TIME, (self.verdict.start, self.verdict.end))
-        if self.robot is not None:
-            line.frame = self.robot.element_id
-        line.on("playing", lambda event: play.set_icon("pause" if event.args else "play_arrow"))
-        play.on_click(lambda: line.toggle_play(speed.value))
-        line.show_motion(time, positions)
+        with self.studio.show_errors(), ui.card().classes("studio-card fails-robot"):
+            frame = await add_robot_frame(self.studio, "100%", alone=True)
+            frame.connect_joint(self._select_joint)
+            return frame
+        return None
 
     def _draw_verdict(self) -> None:
         verdict = self.verdict
@@ -229,62 +203,56 @@ class _FailureView:
 
     async def _draw_torques(self) -> None:
         joints = self.verdict.joints if self.state.get("every") else (self.state["joint"],)
-        pictures = [await self._load_torque(joint) for joint in joints]
+        loaders = [
+            partial(load_torque, self.studio, [self.model], self.logs, joint) for joint in joints
+        ]
+        pictures = [await load() for load in loaders]
         self.torques.clear()
         with self.torques:
-            for joint, picture in zip(joints, pictures, strict=True):
-                if picture is not None:
-                    plot = figures.draw_picture(picture, _TIME)
-                    connect_zoom(
-                        self.studio, plot, lambda *ends, name=joint: self._load_torque(name, *ends)
-                    )
-
-    async def _load_torque(self, joint: str, *ends: float) -> Any:
-        return await ask_viewer(
-            self.studio, "torque_picture", [self.model], self.logs, joint, *ends,
-            kind=f"torque {joint}",
-        )  # fmt: skip
+            for load, picture in zip(loaders, pictures, strict=True):
+                draw_zoomable(picture, _TIME, load)
 
     async def _draw_residual(self) -> None:
-        picture = await ask_viewer(
-            self.studio, "residual_picture", [self.model], self.logs, self.state["joint"],
-            self.state["channel"], kind="residual",
-        )  # fmt: skip
-        if picture is not None:
-            self.residual.clear()
-            with self.residual:
-                figures.draw_picture(picture)
+        subject = self.state["joint"], self.state["channel"]
+        await _draw_residual(self.studio, self.residual, [self.model], self.logs, *subject)
 
 
-async def ask_viewer(studio: Studio, question: str, *arguments: Any, kind: str) -> Any:
-    """Asks the viewer and shows its error; returns None without an answer."""
-    try:
-        return await studio.ask_viewer(question, *arguments, kind=kind)
-    except ModelerError as error:
-        studio.show_error(str(error))
-        return None
+async def _draw_residual(
+    studio: Studio, place: ui.element, models: list[str], logs: list[str], *subject: Any
+) -> None:
+    """Draws a residual in its place; `subject` is the joint, the channel, and if by log."""
+    picture = await studio.try_viewer("residual_picture", models, logs, *subject, kind="residual")
+    if picture is not None:
+        place.clear()
+        with place:
+            figures.draw_picture(picture)
 
 
-def connect_zoom(studio: Studio, plot: Plotly, load_window: Any) -> None:
-    """Requests a finer picture when another time range is shown.
+async def load_torque(
+    studio: Studio, models: list[str], logs: list[str], joint: str, *ends: float
+) -> Any:
+    """Loads the picture of the torques of a joint, all of it or between two times, s."""
+    kind = f"torque {joint} of {models}"
+    return await studio.try_viewer("torque_picture", models, logs, joint, *ends, kind=kind)
+
+
+def draw_zoomable(picture: Any, time: str, load_window: Callable[..., Awaitable[Any]]) -> None:
+    """Draws a picture that is loaded anew, and finer, when another time range is shown.
 
     Args:
-        studio: the window.
-        plot: drawn by `figures.draw_picture`, one of the pictures of a time.
+        picture: of all; None is not drawn.
+        time: that pictures share.
         load_window: from both ends, s, to the picture of what is between, or None.
     """
+    if picture is None:
+        return
+    plot = figures.draw_picture(picture, time)
 
     async def update_picture(event: Any) -> None:
         ends = figures.read_x_range(event.args)
-        if ends is False:
-            return
-        try:
-            picture = await load_window(*(ends or ()))
-        except ModelerError as error:
-            studio.show_error(str(error))
-            return
-        if picture is not None:
-            plot.update_figure(figures.build_figure(picture, plot.figure["layout"]["meta"]["time"]))
+        finer = None if ends is False else await load_window(*(ends or ()))
+        if finer is not None:
+            plot.update_figure(figures.build_figure(finer, time))
 
     plot.on("plotly_relayout", update_picture)
 
@@ -317,24 +285,17 @@ async def draw_days(studio: Studio) -> None:
     await draw_tab()
 
 
-def _explain_missing(studio: Studio, line: str, title: str, screen: str) -> None:
-    """What is missing for this, and where it is made."""
-    ui.label(line)
-    add_go_button(studio, title, screen)
-
-
 def _collect_parts(log: ProjectLog) -> list[LogPart]:
     """All of a log but what is left out of it."""
     return [LogPart(log.file, time_range) for time_range in TimeRange().subtract_gaps(log.out)]
 
 
 def _draw_menu(
-    state: dict[str, Any], name: str, known: Mapping[Any, str], default: Any,
-    changed: Callable[[], Any],
-) -> None:  # fmt: skip
+    state: dict[str, Any], name: str, known: Mapping[Any, str], changed: Callable[[], Any]
+) -> None:
     """A menu; what is chosen is kept under its name, which is its label too."""
     if state.get(name) not in known:
-        state[name] = default
+        state[name] = next(iter(known))
 
     def store_choice(event: Any) -> Any:
         state[name] = event.value
@@ -343,18 +304,25 @@ def _draw_menu(
     ui.select(dict(known), value=state[name], label=name, on_change=store_choice).classes("w-64")
 
 
+def _draw_pair(state: dict[str, Any], what: str, known: Mapping[Any, str], studio: Studio) -> None:
+    """Menus of two that are compared; at first the first two."""
+    for name, default in zip((f"first {what}", f"second {what}"), known, strict=False):
+        if state.get(name) not in known:
+            state[name] = default
+        _draw_menu(state, name, known, studio.redraw)
+
+
 async def _draw_logs(studio: Studio, state: dict[str, Any]) -> None:
     """Errors and residuals of two logs under the current model."""
     project = studio.project
     if not project.model_file:
-        return _explain_missing(studio, "There is no model yet: fit one first.", "Fit", "fit")
+        return explain_missing_model(studio)
     if len(project.logs) < 2:
         line = "The project has fewer than two logs: add another day or machine first."
-        return _explain_missing(studio, line, "Data", "data")
+        return explain_missing(studio, line, "Data", "data")
     known = {log.file: log.file.rpartition("/")[2] for log in project.logs}
     with ui.row().classes("items-center"):
-        for name, default in zip(("first log", "second log"), known, strict=False):
-            _draw_menu(state, name, known, default, studio.redraw)
+        _draw_pair(state, "log", known, studio)
     chosen = {state["first log"], state["second log"]}
     parts = [part for log in project.logs if log.file in chosen for part in _collect_parts(log)]
     add_run_button(studio, "Compare", lambda: commands.compare(project, parts), small=True)
@@ -362,26 +330,21 @@ async def _draw_logs(studio: Studio, state: dict[str, Any]) -> None:
     verdict = await studio.ask_viewer("verdict", project.model_file, viewer_words)
     errors = await studio.ask_viewer("log_errors", project.model_file, viewer_words)
     with add_card("Relative error"):
-        rows = [[f"joint {joint}", *(format_percent(each[joint]) for _, _, each in errors)]
-                for joint in verdict.joints]  # fmt: skip
+        by_joint = {joint: [each[joint] for _, _, each in errors] for joint in verdict.joints}
+        rows = [[f"joint {j}", *map(format_percent, shares)] for j, shares in by_joint.items()]
         rows.append(["all", *(format_percent(whole) for _, whole, _ in errors)])
         draw_table(["", *(name for name, _, _ in errors)], rows)
 
     async def draw_residuals() -> None:
-        picture = await ask_viewer(
-            studio, "residual_picture", [project.model_file], viewer_words, state["joint"],
-            state["residual over"], True, kind="days",
-        )  # fmt: skip
-        if picture is not None:
-            place.clear()
-            with place:
-                figures.draw_picture(picture)
+        subject = state["joint"], state["residual over"], True
+        await _draw_residual(studio, place, [project.model_file], viewer_words, *subject)
 
     with add_card("Residuals of both logs"):
         with ui.row():
             joints = {joint: f"joint {joint}" for joint in verdict.joints}
-            _draw_menu(state, "joint", joints, verdict.joints[0], draw_residuals)
-            _draw_menu(state, "residual over", dict(verdict.channels), "velocity", draw_residuals)
+            _draw_menu(state, "joint", joints, draw_residuals)
+            state.setdefault("residual over", "velocity")
+            _draw_menu(state, "residual over", dict(verdict.channels), draw_residuals)
         place = ui.column().classes("w-full")
         await draw_residuals()
 
@@ -391,13 +354,12 @@ async def _draw_models(studio: Studio, state: dict[str, Any]) -> None:
     project = studio.project
     models = [step for step in project.steps if step.model_file]
     known = {step.number: f"{step.number}  {step.task.title}" for step in models}
-    logs = project.collect_parts("test") or project.collect_parts("train")
+    logs = project.collect_judged_parts()
     if len(known) < 2 or not logs:
         line = "The project has fewer than two models: fit another one, or add an effect first."
-        return _explain_missing(studio, line, "What is missing", "missing")
+        return explain_missing(studio, line, "What is missing", "missing")
     with ui.row().classes("items-center"):
-        for name, default in zip(("first model", "second model"), known, strict=False):
-            _draw_menu(state, name, known, default, studio.redraw)
+        _draw_pair(state, "model", known, studio)
     pair = state["first model"], state["second model"]
     if pair[0] == pair[1]:
         ui.label("Choose two different models.")
@@ -411,30 +373,19 @@ async def _draw_models(studio: Studio, state: dict[str, Any]) -> None:
     files = [f"models/{number}.json" for number in pair]
     verdict = await studio.ask_viewer("verdict", files[0], viewer_words)
 
-    async def load_window(*ends: float) -> Any:
-        return await ask_viewer(
-            studio,
-            "torque_picture",
-            files,
-            viewer_words,
-            state["joint shown"],
-            *ends,
-            kind="days torque",
-        )
-
     async def draw_torques() -> None:
-        picture = await load_window()
+        load = partial(load_torque, studio, files, viewer_words, state["joint shown"])
+        picture = await load()
         if picture is not None:
             place.clear()
             with place:
-                connect_zoom(studio, figures.draw_picture(picture, _DAYS_TIME), load_window)
+                draw_zoomable(picture, _DAYS_TIME, load)
 
     with add_card("Measured and predicted by both"):
         errors = dict(zip(verdict.joints, verdict.errors, strict=True))
+        state.setdefault("joint shown", max(errors, key=lambda one: errors[one]))
         joints = {joint: f"joint {joint}" for joint in verdict.joints}
-        _draw_menu(
-            state, "joint shown", joints, max(errors, key=lambda one: errors[one]), draw_torques
-        )
+        _draw_menu(state, "joint shown", joints, draw_torques)
         place = ui.column().classes("w-full")
         await draw_torques()
 
@@ -451,14 +402,13 @@ def _draw_model_comparison(studio: Studio, step: Step) -> None:
             ui.label("No model is significantly better than the other on any joint.")
         rows = []
         for joint in model_entries[0]["joints"]:
-            joint_entries = [each["joints"][joint] for each in model_entries]
+            every = [each["joints"][joint] for each in model_entries]
             cells = [
-                f"{format_percent(one['relative_error'])}{' *' * one['is_best']}"
-                for one in joint_entries
+                f"{format_percent(one['relative_error'])}{' *' * one['best']}" for one in every
             ]
             rows.append([f"joint {joint}", *cells])
         draw_table(["", *(each["model"] for each in model_entries)], rows)
-        ui.label("*: significantly better than the other.").classes("studio-soft")
+        draw_note("*: significantly better than the other.")
     _draw_pictures(studio, step, _DAYS_TIME)
 
 
@@ -467,7 +417,7 @@ async def _draw_drift(studio: Studio, state: dict[str, Any]) -> None:
     project = studio.project
     if not project.robot or len(project.logs) < 2:
         line = "Drift needs a robot and two logs at least, of several days or machines."
-        return _explain_missing(studio, line, "Data", "data")
+        return explain_missing(studio, line, "Data", "data")
     parts = [part for log in project.logs for part in _collect_parts(log)]
 
     def build_task() -> Task:
@@ -477,12 +427,9 @@ async def _draw_drift(studio: Studio, state: dict[str, Any]) -> None:
         state["pattern"] = event.value.strip()
         renew()
 
-    ui.input("File name pattern", value=state.get("pattern", ""), on_change=store_pattern,
-             placeholder="{machine}-{period}.csv").classes("w-80")  # fmt: skip
-    ui.label(
-        "Left out, the folder of a log is its machine and the file its period, in the order of "
-        "their names."
-    ).classes("studio-soft")
+    pattern = ui.input("File name pattern", value=state.get("pattern", ""), on_change=store_pattern)
+    pattern.classes("w-80").props["placeholder"] = "{machine}-{period}.csv"
+    draw_note("Left out: the folder is the machine and the file the period, in order of names.")
     renew = add_run_button(studio, "Detect drift", build_task)
     steps = [step for step in project.steps if step.verb == "fleet"]
     if steps:
@@ -493,20 +440,25 @@ async def _draw_drift(studio: Studio, state: dict[str, Any]) -> None:
 def _draw_fleet(studio: Studio, step: Step) -> None:
     """What `modeler fleet` found."""
     result = studio.read_result(step)
-    with add_card("What drifted, leapt or is apart"):
+    with add_card("Drift, steps and outliers"):
         ui.label(result["verdict"])
         if result["findings"]:
-            draw_table(
-                ["machine", "what", "how", "from", "to", "change", "certainty"],
-                [[one["machine"], one["parameter"], one["shape"], one["begin"], one["end"],
-                  f"{one['change']:.4g} {one['unit']}", f"{one['score']:.1f} sigma"]
-                 for one in result["findings"]],
-            )  # fmt: skip
-        left = [f"{one['log']} left out: {one['reason']}" for one in result["skipped_logs"]]
+            names = ("machine", "parameter", "shape", "from", "to")
+            rows = [
+                (
+                    *map(one.get, names),
+                    f"{one['change']:.4g} {one['unit']}",
+                    f"{one['score']:.1f} sigma",
+                )
+                for one in result["findings"]
+            ]
+            heads = ("machine", "what", "how", "from", "to", "change", "certainty")
+            draw_table(heads, rows)
+        left = [f"{one['log']} left out: {one['why']}" for one in result["left_out"]]
         for line in [f"{one['sentence']}." for one in result["findings"]]:
             ui.label(line)
-        for line in (*result["warnings"], *result["notes"], *left):
-            ui.label(line).classes("studio-soft")
+        for line in (*result["doubts"], *result["notes"], *left):
+            draw_note(line)
     _draw_pictures(studio, step)
 
 

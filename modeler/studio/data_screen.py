@@ -2,6 +2,7 @@
 
 import asyncio
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from nicegui import background_tasks, ui
@@ -9,7 +10,7 @@ from nicegui.element import Element
 
 from modeler.api.front_end import LOG_ENDINGS, ModelerError
 from modeler.studio import commands
-from modeler.studio.elements import add_card, draw_head
+from modeler.studio.elements import add_button, add_card, draw_error, draw_head, draw_note
 from modeler.studio.file_inputs import add_drop_zone, choose_files
 from modeler.studio.log_view import LogView
 from modeler.studio.places import format_size
@@ -64,20 +65,20 @@ class DataScreen(ProjectLogs):
         with ui.row().classes("items-center w-full data-in"):
             label = "Drop logs here, several at once, or press +"
             add_drop_zone("logs", label, self._add_files, studio.show_error).classes("data-drop")
-            pick = ui.button("Browse (no copy)", icon="folder_open").props("no-caps outline")
-            pick.on_click(lambda: choose_files(studio, LOG_ENDINGS, self._add_files))
+            browse = partial(choose_files, studio, LOG_ENDINGS, self._add_files)
+            add_button("Browse (no copy)", browse, "outline", icon="folder_open")
         if not studio.project.logs:
             background_tasks.create(studio.ask_viewer("forget"), name="start the viewer")
-            ui.label(_FORMATS).classes("studio-soft")
+            draw_note(_FORMATS)
             return
         with add_card("Logs"):
             for log in studio.project.logs:
                 with ui.element("div").classes("data-log") as self._rows[log.file]:
                     ui.label(log.file)
-                    ui.label("Loading").classes("studio-soft")
+                    draw_note("Loading")
             with ui.row().classes("items-center gap-4"):
                 draw_legend()
-                ui.label(_FIRST).classes("studio-soft")
+                draw_note(_FIRST)
         self._detail = ui.column().classes("w-full gap-4")
         if studio.project.robot:
             robot = self.resolve_path(studio.project.robot)
@@ -92,9 +93,8 @@ class DataScreen(ProjectLogs):
             self.draw_row(log.file)
         readable = [file for file, known in self.logs.items() if not known.error]
         if readable:
-            await self.open_log(
-                studio.state["log"] if studio.state.get("log") in readable else readable[0]
-            )
+            last = studio.state.get("log")
+            await self.open_log(last if last in readable else readable[0])
             self.begin_inspection()
 
     def _settle_mapping(self) -> None:
@@ -120,9 +120,8 @@ class DataScreen(ProjectLogs):
         if new:
             log_roles = assign_default_roles(project.logs, ends)
             if len(new) < len(project.logs):
-                log_roles = tuple(
-                    replace(log, train=ALL) if log in new else log for log in project.logs
-                )
+                every_log = project.logs
+                log_roles = tuple(replace(x, train=ALL) if x in new else x for x in every_log)
             self.studio.change_project(logs=log_roles)
 
     # Logs come and go.
@@ -155,33 +154,28 @@ class DataScreen(ProjectLogs):
         place.clear()
         with place:
             short = Path(file).name if Path(file).is_absolute() else file
-            name = ui.button(short, on_click=lambda: self.open_log(file)).tooltip(
-                self.resolve_path(file)
-            )
-            name.props("flat dense no-caps align=left").classes("data-name")
+            name = add_button(short, lambda: self.open_log(file), "flat dense align=left")
+            name.tooltip(self.resolve_path(file)).classes("data-name")
             if known.error:
-                ui.label(known.error).classes("studio-error").props("role=alert")
+                draw_error(known.error)
             else:
                 span = known.ends[1] - known.ends[0]
                 rate = f"{(known.rows - 1) / span:.4g} Hz" if span else "no time"
                 facts = f"{known.rows} rows, {rate}, {span:.4g} s, {format_size(known.size)}"
-                ui.label(facts).classes("studio-soft")
+                draw_note(facts)
                 line = Timeline(file, known.ends, active=False)
                 line.update_log(self.get_log(file), result.get("marks", ()))
                 ui.label(describe_roles(self.get_log(file)))
                 count = len(result.get("warnings", ()))
                 doubts = f"{count or 'no'} warning{'s' * (count != 1)}" if result else ""
-                ui.label(doubts).classes("studio-soft")
+                draw_note(doubts)
             off = ui.button(icon="close", on_click=lambda: self._remove_log(file))
             off.props("flat dense round").tooltip("takes it off the list; the file stays")
             off._props["aria-label"] = f"take {file} off the list"
 
     def replace_log(self, log: ProjectLog) -> None:
         """Replaces the log of the same file in the project."""
-        logs = tuple(
-            log if project_log.file == log.file else project_log
-            for project_log in self.studio.project.logs
-        )
+        logs = tuple(log if log.file == x.file else x for x in self.studio.project.logs)
         if self.studio.change_project(logs=logs):
             self.draw_row(log.file)
 
@@ -220,7 +214,7 @@ class DataScreen(ProjectLogs):
             try:
                 step = await hub.run(left[0], keep=False, aside=True)
                 old = self.find_last_inspection(step.task.file)
-                steps = [other_step for other_step in studio.project.steps if other_step is not old]
+                steps = [each for each in studio.project.steps if each is not old]
                 studio.change_project(steps=(*steps, step))
             except ModelerError as error:
                 if str(error).endswith(": cancelled") or not self.is_live:

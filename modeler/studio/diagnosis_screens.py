@@ -20,9 +20,8 @@ from modeler.api.front_end import (
     read_pictures,
 )
 from modeler.studio import commands, elements, figures
-from modeler.studio.commands import build_viewer_words
-from modeler.studio.comparison_screens import connect_zoom
-from modeler.studio.elements import Light
+from modeler.studio.comparison_screens import draw_zoomable, load_torque
+from modeler.studio.elements import Light, add_button, draw_note
 from modeler.studio.project import Project
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import Step, Task
@@ -35,7 +34,7 @@ _STATUS: Mapping[str, tuple[Light, str]] = {
     "likely": ("good", "Likely"),
     "possible": ("doubtful", "Possible"),
 }
-_RANKS = ("confirmed", "likely", "possible")
+"""Light and word of a status; the surest first."""
 
 
 async def draw_missing(studio: Studio) -> None:
@@ -54,9 +53,8 @@ async def draw_missing(studio: Studio) -> None:
         _draw_bans(studio)
     if step is not None:
         if commands.diagnose(project) != step.task:
-            elements.draw_warnings(
-                ["segments or bans were changed since this was found; diagnose again"]
-            )
+            line = "segments or bans were changed since this was found; diagnose again"
+            elements.draw_warnings([line])
         await _draw_diagnosis(studio, step)
     _draw_catalogue(studio)
 
@@ -79,7 +77,7 @@ async def _draw_diagnosis(studio: Studio, step: Step) -> None:
             elements.draw_folded("Command output", result["sentences"])
         else:
             _draw_remainder(result["joints"], kind)
-    ranked = sorted(every, key=lambda one: _RANKS.index(one["status"]))
+    ranked = sorted(every, key=lambda one: [*_STATUS].index(one["status"]))
     for one in ranked:
         refines = (one["effect"], one["joint"]) not in effect_keys
         await _draw_card(studio, one, pictures, refines, kind, first=one is ranked[0])
@@ -88,58 +86,50 @@ async def _draw_diagnosis(studio: Studio, step: Step) -> None:
             every_one = partial(commands.add, project, "auto", None)
             then = partial(_accept_step, studio)
             elements.add_run_button(studio, "Add all that is named", every_one, then, small=True)
-        rivals = [
-            (_describe_place(rival), format_percent(rival["gain"]))
-            for rival in result["alternatives"]
+        others = [(_describe_place(one), format_percent(one["gain"])) for one in result["rivals"]]
+        hidden = [
+            (_describe_place(one), _describe_effect(one["effect"], "look_alikes"))
+            for one in result["blind_spots"]
         ]
-        blind = [
-            (_describe_place(one), _describe_effect(one["effect"], "confounders"))
-            for one in result["undetectable"]
-        ]
-        elements.draw_folded(
-            "Alternatives that explain less", rivals, "effect", "of the residual's variance"
-        )
-        elements.draw_folded("What these logs cannot show", blind, "effect", "it is mistaken for")
+        heads = "effect", "of the residual's variance"
+        elements.draw_folded("Alternatives that explain less", others, *heads)
+        elements.draw_folded("Undetectable in these logs", hidden, "effect", "confounders")
         elements.add_page_button(studio, step)
 
 
 async def _draw_card(
-    studio: Studio, one: Found, pictures: Mapping[str, Picture], refines: bool, kind: str,
+    studio: Studio,
+    one: Found,
+    pictures: Mapping[str, Picture],
+    refines: bool,
+    kind: str,
     first: bool,
-) -> None:  # fmt: skip
+) -> None:
     """One effect: what it is, how large, what it gains, why, and what to do with it."""
     effect, joint = one["effect"], one["joint"]
     which, status = _STATUS[one["status"]]
-    with elements.add_card(
-        f"{_describe_effect(effect)}: {f'joint {joint}' if joint else 'the whole robot'}"
-    ):
+    where = f"joint {joint}" if joint else "the whole robot"
+    with elements.add_card(f"{_describe_effect(effect)}: {where}"):
         with ui.row().classes("items-center"):
-            elements.draw_light(which, f"{status}: {one['warning']}" if one["warning"] else status)
-            ui.label(f"id {effect}").classes("studio-soft")
+            elements.draw_light(which, f"{status}: {one['doubt']}" if one["doubt"] else status)
+            draw_note(f"id {effect}")
             if refines:
-                ui.label("refines a law of the model").classes("studio-soft")
+                draw_note("refines a term of the model")
         with ui.row().classes("items-baseline"):
-            ui.label(_format_errors(one["error_before"], one["error_after"])).classes(
-                "studio-figure"
-            )
+            errors = _format_errors(one["error_before"], one["error_after"])
+            ui.label(errors).classes("studio-figure")
             ui.label(f"{kind} of its joints, without and with it")
-        law = find_effect(effect)
-        meanings = (
-            {}
-            if law is None
-            else {
-                shape.name: f": {shape.meaning}"
-                for form in law.forms
-                for shape in form.nonlinear_parameters
-            }
-        )
+        known = find_effect(effect)
+        forms = () if known is None else known.forms
+        every = [parameter for form in forms for parameter in form.nonlinear_parameters]
+        meanings = {parameter.name: f": {parameter.meaning}" for parameter in every}
         for name, value in one["parameters"].items():
             ui.label(f"{name} = {_format_value(one, name, value)}{meanings.get(name, '')}")
         ui.label(one["evidence"])
         elements.draw_warnings([one["caveat"]] if one["caveat"] else [])
         if one["ties"]:
             others = "; ".join(map(_describe_place, one["ties"]))
-            elements.draw_warnings([f"these data do not distinguish it from: {others}"])
+            elements.draw_warnings([f"equivalent in these data: {others}"])
             elements.add_go_button(studio, "The motion that distinguishes them", "motion")
         _draw_actions(studio, effect, joint)
         await _draw_preview(studio, effect, joint)
@@ -184,19 +174,19 @@ def _draw_actions(studio: Studio, effect: str, joint: str | None) -> None:
     ready = find_trial(studio.project, effect, joint)
     if ready is None:
         elements.add_run_button(studio, "Preview", build_task, current=False, small=True)
-        elements.add_run_button(
-            studio, "Add", build_task, partial(_accept_step, studio), small=True
-        )
+        accept = partial(_accept_step, studio)
+        elements.add_run_button(studio, "Add", build_task, accept, small=True)
     else:
         with ui.row().classes("items-center no-wrap w-full"):
-            button = ui.button("Add", on_click=lambda: _accept_step(studio, ready))
-            elements.disable_while_busy(studio, button.props("no-caps unelevated"))
+            button = add_button("Add", lambda: _accept_step(studio, ready), "unelevated")
+            elements.disable_while_busy(studio, button)
             elements.draw_step_line(studio, ready)
     with ui.row():
         for ban in dict.fromkeys([f"{effect}@{joint}" if joint else effect, effect]):
             where = "this joint" if "@" in ban else "this robot"
-            button = ui.button(f"Not on {where}", on_click=lambda _, ban=ban: _add_ban(studio, ban))
-            elements.disable_while_busy(studio, button.props("no-caps flat dense icon=block"))
+            act = partial(_add_ban, studio, ban)
+            button = add_button(f"Not on {where}", act, "flat dense icon=block")
+            elements.disable_while_busy(studio, button)
 
 
 def find_trial(project: Project, effect: str, joint: str | None) -> Step | None:
@@ -213,9 +203,7 @@ def _accept_step(studio: Studio, step: Step) -> None:
 
 
 def _add_ban(studio: Studio, ban: str) -> None:
-    others = [
-        other_ban for other_ban in studio.project.without if other_ban.partition("@")[0] != ban
-    ]
+    others = [other for other in studio.project.without if other.partition("@")[0] != ban]
     studio.change_project(redraw=True, without=tuple(dict.fromkeys([*others, ban])))
 
 
@@ -224,13 +212,11 @@ def _draw_bans(studio: Studio) -> None:
     if not studio.project.without:
         return
     with ui.row().classes("items-center"):
-        ui.label("not on this robot:").classes("studio-soft")
+        draw_note("not on this robot:")
         for ban in studio.project.without:
-            left = tuple(other_ban for other_ban in studio.project.without if other_ban != ban)
-            button = ui.button(
-                ban, on_click=lambda _, left=left: studio.change_project(True, without=left)
-            )
-            button.props("no-caps outline dense icon=close")
+            left = tuple(other for other in studio.project.without if other != ban)
+            act = partial(studio.change_project, True, without=left)
+            button = add_button(ban, act, "outline dense icon=close")
             button.props["aria-label"] = f"take back the ban of {ban}"
             elements.disable_while_busy(studio, button)
 
@@ -241,47 +227,30 @@ async def _draw_preview(studio: Studio, effect: str, joint: str | None) -> None:
     step = find_trial(project, effect, joint)
     if step is None:
         return
-    logs = commands.build_viewer_words(
-        project, project.collect_parts("test") or project.collect_parts("train")
-    )
+    logs = commands.build_viewer_words(project, project.collect_judged_parts())
     models = [project.model_file, step.model_file]
     verdicts = [await studio.ask_viewer("verdict", model, logs) for model in models]
     before, after = (dict(zip(verdict.joints, verdict.errors, strict=True)) for verdict in verdicts)
     falls = {name: (before[name], after[name]) for name in before if name in after}
     most = max(falls, key=lambda name: falls[name][0] - falls[name][1])
-    shown_joint = joint if joint in falls else most
+    shown_joint = joint if joint is not None and joint in falls else most
     where = "held-out" if project.collect_words("test") else "fitted"
-    ui.label(f"Error on the {where} logs, without and with it:").classes("studio-soft")
-    elements.draw_lines(
-        f"joint {name}: {_format_errors(*errors)}" for name, errors in falls.items()
-    )
-
-    async def load_window(*ends: float) -> Picture:
-        picture: Picture = await studio.ask_viewer(
-            "torque_picture", models, logs, shown_joint, *ends
-        )
-        return picture
-
-    plot = figures.draw_picture(
-        _add_model_names(await load_window(), models, _describe_effect(effect)), "ghost"
-    )
-    connect_zoom(studio, plot, load_window)
-
-
-def _add_model_names(picture: Picture, models: Sequence[str], effect: str) -> Picture:
-    """With what its models are called."""
-    before, after = (f"model {Path(model).stem}" for model in models)
-    title, caption = f"Preview. {picture.title}", f"{before}: as it is; {after}: with {effect}"
-    return dataclasses.replace(picture, title=title, caption=caption)
+    draw_note(f"Error on the {where} logs, without and with it:")
+    elements.draw_lines(f"joint {name}: {_format_errors(*both)}" for name, both in falls.items())
+    load = partial(load_torque, studio, models, logs, shown_joint)
+    picture = await load()
+    if picture is not None:
+        old, new = (f"model {Path(model).stem}" for model in models)
+        title = f"Preview. {picture.title}"
+        caption = f"{old}: as it is; {new}: with {_describe_effect(effect)}"
+        picture = dataclasses.replace(picture, title=title, caption=caption)
+        draw_zoomable(picture, f"preview of {effect} {joint}", load)
 
 
 def _draw_remainder(joints: Mapping[str, Mapping[str, float | None]], kind: str) -> None:
     """Where nothing is missing: what is left of each joint's torque."""
-    names = ("error_before", "explained_share", "systematic_share", "noise_share")
-    rows = [
-        (joint, *(format_percent(shares[name]) for name in names))
-        for joint, shares in joints.items()
-    ]
+    names = ("error_before", "explained", "systematic", "noise")
+    rows = [(j, *(format_percent(shares[n]) for n in names)) for j, shares in joints.items()]
     elements.draw_table(("joint", kind, "explained", "of physics", "noise (of the variance)"), rows)
 
 
@@ -294,31 +263,30 @@ def _draw_catalogue(studio: Studio) -> None:
         joints = [joint["name"] for joint in manifest["joints"]]
         passive = (manifest["closure"] or {}).get("variables", ())
         joints += [name for name in passive if name not in joints]
-        about = ui.label().classes("studio-soft")
+        about = draw_note("")
+
+        def ban_chosen() -> None:
+            _add_ban(studio, "@".join(filter(None, (chosen["effect"], chosen["joint"]))))
+
         with ui.row().classes("items-end"):
             effect = ui.select(names, label="effect", value=chosen["effect"], with_input=True)
-            joint = ui.select({"": "where it explains most", **{j: f"joint {j}" for j in joints}},
-                              label="joint", value=chosen["joint"])  # fmt: skip
-            ban = ui.button("Not on this robot", on_click=lambda: _add_ban(studio, build_ban()))
-            elements.disable_while_busy(studio, ban.props("no-caps flat icon=block"))
+            places = {"": "where it explains most", **{name: f"joint {name}" for name in joints}}
+            joint = ui.select(places, label="joint", value=chosen["joint"])
+            ban = add_button("Not on this robot", ban_chosen, "flat icon=block")
+            elements.disable_while_busy(studio, ban)
         effect.classes("w-96")
         joint.classes("w-56")
 
         def build_task() -> Task:
             return commands.add(studio.project, chosen["effect"], chosen["joint"] or None)
 
-        def build_ban() -> str:
-            effect_id, place = chosen["effect"], chosen["joint"]
-            return f"{effect_id}@{place}" if place else effect_id
-
-        renew = elements.add_run_button(
-            studio, "Add it", build_task, partial(_accept_step, studio), small=True
-        )
+        accept = partial(_accept_step, studio)
+        renew = elements.add_run_button(studio, "Add it", build_task, accept, small=True)
 
         def update_choice() -> None:
             chosen["effect"], chosen["joint"] = effect.value or "viscous", joint.value or ""
-            parts = [_describe_effect(chosen["effect"], what) for what in ("equation", "signature")]
-            about.text = "; ".join(parts)
+            words = (_describe_effect(chosen["effect"], what) for what in ("equation", "signature"))
+            about.text = "; ".join(words)
             renew()
 
         effect.on_value_change(update_choice)
@@ -358,28 +326,24 @@ async def draw_history(studio: Studio) -> None:
         with elements.add_card("Other branches"):
             for step in aside:
                 _draw_step(studio, step, f"Go to step {step.number}")
-    logs = build_viewer_words(
-        project, project.collect_parts("test") or project.collect_parts("train")
-    )
-    with elements.add_card(
-        "What is left" + (" on held-out motion" if project.collect_words("test") else "")
-    ):
+    logs = commands.build_viewer_words(project, project.collect_judged_parts())
+    where = " on held-out motion" if project.collect_words("test") else ""
+    with elements.add_card(f"What is left{where}"):
         verdict = await studio.ask_viewer("verdict", project.model_file, logs)
         for joint, error, kind, sentence in zip(
             verdict.joints, verdict.errors, verdict.kinds, verdict.sentences, strict=True
         ):
             elements.draw_residual_state(joint, error, kind)
-            ui.label(sentence).classes("studio-soft")
+            draw_note(sentence)
         elements.add_page_button(studio, path[-1])
     with ui.row():
-        elements.add_go_button(studio, "Look what is missing still", "missing")
-        elements.add_go_button(studio, "Take it away", "take")
+        elements.add_go_button(studio, "Diagnose", "missing")
+        elements.add_go_button(studio, "Export", "take")
 
 
 def _read_waterfall(studio: Studio, step: Step) -> Sequence[Mapping[str, Any]]:
     """Errors after each effect; of a fit none."""
-    waterfall: Sequence[Mapping[str, Any]] = studio.read_result(step).get("waterfall", ())
-    return waterfall
+    return list(studio.read_result(step).get("waterfall", ()))
 
 
 def _draw_pictures(studio: Studio, path: Sequence[Step]) -> None:
@@ -394,10 +358,8 @@ def _draw_pictures(studio: Studio, path: Sequence[Step]) -> None:
         if matching_steps:
             _restore_step(studio, matching_steps[0])
         else:
-            studio.show_error(
-                "that effect came with others in one step; go back to the step before, and add "
-                "them one by one"
-            )
+            line = "that effect came with others in one step; go back a step, and add one by one"
+            studio.show_error(line)
 
     for picture in read_pictures(studio.folder / path[-1].pictures_file):
         plot = figures.draw_picture(picture)
@@ -417,10 +379,11 @@ def _draw_step(studio: Studio, step: Step, action: str) -> None:
         ui.label(f"{step.number}  {step.task.title}{origin}").classes("studio-step")
         ui.label(_describe_error(studio, step)).classes("studio-step-error")
         if action:
-            button = ui.button(action, on_click=lambda: _restore_step(studio, step))
-            elements.disable_while_busy(studio, button.props("no-caps outline dense icon=history"))
+            act = partial(_restore_step, studio, step)
+            button = add_button(action, act, "outline dense icon=history")
+            elements.disable_while_busy(studio, button)
         else:
-            ui.label("you are here").classes("studio-soft")
+            draw_note("you are here")
         elements.draw_step_line(studio, step)
 
 

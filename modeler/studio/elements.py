@@ -27,7 +27,22 @@ def draw_head(title: str, text: str = "") -> None:
     """Draws the title of a screen and what it is for."""
     ui.label(title).classes("studio-head")
     if text:
-        ui.label(text).classes("studio-soft")
+        draw_note(text)
+
+
+def draw_note(text: str, *classes: str) -> ui.label:
+    """Draws a sentence of less weight."""
+    return ui.label(text).classes(" ".join(("studio-soft", *classes)))
+
+
+def draw_error(error: object) -> None:
+    """Draws the line of an error in its place."""
+    ui.label(str(error)).classes("studio-error").props("role=alert")
+
+
+def add_button(title: str, act: Callable[..., object], props: str = "", **icon: str) -> ui.button:
+    """Adds a button whose title is written as it is."""
+    return ui.button(title, on_click=act, **icon).props(f"no-caps {props}")
 
 
 def add_card(title: str) -> Element:
@@ -77,20 +92,15 @@ def add_run_button(
 
     async def run_task() -> None:
         room = studio.room
-        try:
-            task = build_task()
-        except ModelerError as error:
-            studio.show_error(str(error))
-            return
-        step = await studio.run(task, current)
-        if step is not None and room is not None:
-            with room:  # the screen with this button was drawn anew
-                on_done(step)
+        with studio.show_errors():
+            step = await studio.run(build_task(), current)
+            if step is not None and room is not None:
+                with room:  # the screen with this button was drawn anew
+                    on_done(step)
 
     with ui.row().classes("items-center no-wrap w-full"):
-        button = ui.button(title, on_click=run_task).props("no-caps unelevated")
-        button.props("outline dense" if small else "size=lg")
-        disable_while_busy(studio, button)
+        size = "outline dense" if small else "size=lg"
+        disable_while_busy(studio, add_button(title, run_task, f"unelevated {size}"))
         line = draw_command_line("")
 
     def update_line() -> None:
@@ -234,15 +244,18 @@ def add_page_button(studio: Studio, step: Step) -> None:
 
 def explain_missing_model(studio: Studio) -> None:
     """Draws the hint that there is no model yet, with the way to the fit."""
-    ui.label("There is no model yet: fit one first.")
-    add_go_button(studio, "To the fit", "fit")
+    explain_missing(studio, "There is no model yet: fit one first.", "To the fit", "fit")
+
+
+def explain_missing(studio: Studio, line: str, title: str, screen: str) -> None:
+    """Draws what is missing for a screen, with the way to where it is made."""
+    ui.label(line)
+    add_go_button(studio, title, screen)
 
 
 def add_go_button(studio: Studio, title: str, screen: str) -> None:
     """Adds a button that opens another screen."""
-    ui.button(title, on_click=lambda: studio.open_screen(screen)).props(
-        "no-caps flat icon-right=east"
-    )
+    add_button(title, lambda: studio.open_screen(screen), "flat icon-right=east")
 
 
 class RobotFrame:

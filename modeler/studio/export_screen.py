@@ -5,13 +5,15 @@ import re
 import shlex
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from nicegui import ui
 
-from modeler.api.front_end import ModelerError, replace_fitted_values
+from modeler.api.front_end import replace_fitted_values
 from modeler.studio import elements
+from modeler.studio.elements import add_button, draw_note
 from modeler.studio.places import compute_disk_use, find_unused_files, format_size
 from modeler.studio.project import Project
 from modeler.studio.studio import Studio
@@ -54,17 +56,14 @@ def build_recipe(project: Project, folder: Path, robots: Mapping[str, str]) -> R
     numbers = {step.number for step in model_path}
     about = [project.find_step_about(verb, number) for verb in _ABOUT for number in sorted(numbers)]
     used = {part.file for step in model_path for part in (*step.task.logs, *step.task.held)}
-    simulations = [
-        step for step in project.steps if step.verb == "simulate" and step.output in used
-    ]
+    simulations = [s for s in project.steps if s.verb == "simulate" and s.output in used]
     steps = [*simulations, *model_path, *(step for step in about if step is not None)]
     logs = frozenset(file for file in used if file.startswith("logs/"))
     logs |= {log.file for log in project.logs if not Path(log.file).is_absolute()}
     robot_files = sorted({step.robot_copy for step in steps} & {*robots})
-    return Recipe(
-        folder, tuple(sorted(steps, key=lambda step: step.number)),
-        {name: robots[name] for name in robot_files}, logs - {step.output for step in simulations},
-    )  # fmt: skip
+    steps.sort(key=lambda step: step.number)
+    texts = {name: robots[name] for name in robot_files}
+    return Recipe(folder, tuple(steps), texts, logs - {step.output for step in simulations})
 
 
 # As a shell script.
@@ -90,11 +89,9 @@ def format_script(recipe: Recipe) -> str:
             end += "_"
         lines.append(f"cat > {shlex.quote(name)} <<'{end}'\n{text.rstrip()}\n{end}\n")
     for step in recipe.steps:
-        words = [_quote_word(recipe, word) for word in build_command_line(step)]
-        lines.append(
-            f"# {step.number}: {step.task.title}\n$MODELER {' '.join(words)} --json "
-            f"{step.result_file}\n"
-        )
+        words = " ".join(_quote_word(recipe, word) for word in build_command_line(step))
+        lines.append(f"# {step.number}: {step.task.title}")
+        lines.append(f"$MODELER {words} --json {step.result_file}\n")
     return "\n".join(lines)
 
 
@@ -109,9 +106,11 @@ def _quote_word(recipe: Recipe, word: str) -> str:
 
 def format_notebook(recipe: Recipe) -> str:
     """Formats the recipe as a notebook with the Python interface."""
-    cells = [_build_cell("markdown", "# The steps of a project of `modeler studio`\n\n"
-                   "Run it in an empty folder; `LOGS` is the folder of the project."),
-             _build_cell("code", "\n".join(_format_preparation(recipe)))]  # fmt: skip
+    head = "Run it in an empty folder; `LOGS` is the folder of the project."
+    cells = [
+        _build_cell("markdown", f"# The steps of a project of `modeler studio`\n\n{head}"),
+        _build_cell("code", "\n".join(_format_preparation(recipe))),
+    ]
     for step in recipe.steps:
         cells.append(_build_cell("markdown", f"{step.number}. {step.task.title}"))
         cells.append(_build_cell("code", "\n".join(_format_code(recipe, step))))
@@ -193,10 +192,10 @@ _LIKE = (".urdf", ".xml", ".mjcf", ".sdf")
 
 
 async def draw(studio: Studio) -> None:
-    """Draws the screen of what can be taken away as files."""
+    """Draws the screen of the exports."""
     project = studio.project
     elements.draw_head(
-        "Take away", "Everything leaves as files; the script and the notebook do it all again."
+        "Export", "Everything leaves as files; the script and the notebook do it all again."
     )
     if not project.model_file:
         elements.explain_missing_model(studio)
@@ -214,19 +213,17 @@ def _add_download_button(
     """A button that downloads what is made when it is pressed."""
 
     def download_content() -> None:
-        try:
+        with studio.show_errors():
             ui.download.from_url(studio.hub.register_download(content(), name), name)
-        except ModelerError as error:
-            studio.show_error(str(error))
 
-    ui.button(title, on_click=download_content).props("no-caps outline icon=download")
+    add_button(title, download_content, "outline icon=download")
 
 
 def _draw_exports(studio: Studio, name: str) -> None:
     """C and files for simulators, which commands write."""
     chosen = studio.state.setdefault("take", {"precision": "double", "to": "urdf", "like": ""})
     files = sorted(file.name for file in studio.folder.iterdir() if file.suffix in _LIKE)
-    kinds = {"": "a file of its own", **{name: name for name in files}}
+    kinds = {"": "none", **{name: name for name in files}}
     with elements.add_card("C for the controller"):
         precision = ui.toggle(["double", "single"]).bind_value(chosen, "precision")
         renew = elements.add_run_button(
@@ -237,7 +234,7 @@ def _draw_exports(studio: Studio, name: str) -> None:
     with elements.add_card("For simulators and planners"):
         with ui.row().classes("items-end"):
             to = ui.select(_FORMATS, label="format").bind_value(chosen, "to").classes("w-48")
-            like = ui.select(kinds, label="into the bytes of").bind_value(chosen, "like")
+            like = ui.select(kinds, label="Template file").bind_value(chosen, "like")
         renew = elements.add_run_button(
             studio,
             "Export",
@@ -263,15 +260,14 @@ def _draw_files(studio: Studio, name: str) -> None:
     """Model, robot, page."""
     place = studio.folder / studio.model_step.model_file
     with elements.add_card("Files of this model"):
-        ui.label(
+        draw_note(
             "The model is one file that holds all that other commands need. The robot file has the "
             "effects that were added; values stand in it where the estimator ends in them."
-        ).classes("studio-soft")
+        )
         with ui.row():
+            fill = partial(_fill_robot_file, studio)
             _add_download_button(studio, "Model", f"{name}.model.json", lambda: place)
-            _add_download_button(
-                studio, "Robot file", f"{name}.toml", lambda: _fill_robot_file(studio)
-            )
+            _add_download_button(studio, "Robot file", f"{name}.toml", fill)
         elements.add_page_button(studio, studio.model_step)
 
 
@@ -285,26 +281,25 @@ def _draw_recipe(studio: Studio) -> None:
 
     def collect_recipe() -> Recipe:
         copies = {step.robot_copy for step in studio.project.steps} - {""}
-        robots = {
-            name: studio.read_text(name) for name in copies if (studio.folder / name).is_file()
-        }
+        there = (name for name in copies if (studio.folder / name).is_file())
+        robots = {name: studio.read_text(name) for name in there}
         return build_recipe(studio.project, studio.folder, robots)
 
     with elements.add_card("All of it again"):
-        ui.label(
+        draw_note(
             "Both make the same values in an empty folder, and name the same effects. The logs are "
-            "read where they lie."
-        ).classes("studio-soft")
+            "read in place."
+        )
         with ui.row():
-            _add_download_button(
-                studio, "Shell script", "steps.sh", lambda: format_script(collect_recipe()).encode()
-            )
-            _add_download_button(
-                studio,
-                "Notebook",
-                "steps.ipynb",
-                lambda: format_notebook(collect_recipe()).encode(),
-            )
+            for title, file, write in (
+                ("Shell script", "steps.sh", format_script),
+                ("Notebook", "steps.ipynb", format_notebook),
+            ):
+
+                def make(write: Callable[[Recipe], str] = write) -> bytes:
+                    return write(collect_recipe()).encode()
+
+                _add_download_button(studio, title, file, make)
         for step in collect_recipe().steps:
             elements.draw_step_line(studio, step)
 
@@ -326,9 +321,9 @@ def _draw_disk(studio: Studio) -> None:
                 studio.redraw()
 
         with ui.row().classes("items-center"):
-            button = ui.button(f"Tidy: {format_size(left.size)}", on_click=remove_unused)
-            elements.disable_while_busy(studio, button.props("no-caps outline icon=delete_sweep"))
-            ui.label(
-                f"takes away {len(left.files)} files of {gone} steps that were set aside; logs, "
-                "pages and the way to the current model stay"
-            ).classes("studio-soft")
+            title, props = f"Tidy: {format_size(left.size)}", "outline icon=delete_sweep"
+            elements.disable_while_busy(studio, add_button(title, remove_unused, props))
+            draw_note(
+                f"removes {len(left.files)} files of {gone} steps of other branches; logs, "
+                "pages and the history of the current model stay"
+            )

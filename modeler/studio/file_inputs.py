@@ -9,6 +9,7 @@ import secrets
 import shutil
 import unicodedata
 from collections.abc import AsyncIterator, Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO
 from urllib.parse import unquote
@@ -19,6 +20,7 @@ from nicegui import ui
 from starlette.requests import ClientDisconnect
 
 from modeler.api.front_end import LOG_ENDINGS, DataError, ModelerError
+from modeler.studio.elements import add_button, draw_error, draw_note
 from modeler.studio.places import BEGUN, ROBOT_ENDINGS, Entry, Roots, format_size
 from modeler.studio.studio import Studio
 from modeler.studio.thresholds import THRESHOLDS
@@ -121,8 +123,8 @@ async def receive_file(
         if isinstance(error, OSError):
             what = error.strerror or error
             raise ModelerError(
-                f"{safe_name(name)}: cannot be kept in {place} ({what}); make room, or choose the "
-                "file where it lies"
+                f"{safe_name(name)}: cannot be kept in {place} ({what}); make room, or use "
+                "Browse (no copy)"
             ) from error
         raise
 
@@ -216,12 +218,12 @@ def choose_files(
         places.clear()
         with places:
             if folder is not None:
-                ui.label(str(folder)).classes("studio-soft")
+                draw_note(str(folder))
                 add_folder_button("..", None if folder in tops else folder.parent)
                 try:
                     entries = roots.read_entries(folder, endings)
                 except DataError as error:
-                    ui.label(str(error)).classes("studio-error").props("role=alert")
+                    draw_error(error)
                     return
             for entry in entries:
                 if entry.size is None:
@@ -229,15 +231,17 @@ def choose_files(
                     continue
                 box = ui.checkbox(f"{entry.name}  ({format_size(entry.size)})").props("dense")
                 box.value = entry.place in marked
-                box.on_value_change(
-                    lambda event, place=entry.place: (
-                        marked.append(place) if event.value else marked.remove(place)
-                    )
-                )
+                box.on_value_change(partial(mark_file, entry.place))
+
+    def mark_file(place: Path, event: Any) -> None:
+        if event.value:
+            marked.append(place)
+        else:
+            marked.remove(place)
 
     def add_folder_button(name: str, place: Path | None) -> None:
-        into = ui.button(name, icon="folder", on_click=lambda: show_folder(place)).classes("w-full")
-        into.props("flat dense no-caps align=left")
+        props, act = "flat dense align=left", partial(show_folder, place)
+        add_button(name, act, props, icon="folder").classes("w-full")
 
     def finish_choice() -> None:
         dialog.close()
@@ -246,9 +250,9 @@ def choose_files(
             on_chosen([file.as_posix() for file in files])
 
     with ui.dialog(value=True) as dialog, ui.card().classes("studio-card chooser"):
-        ui.label("Choose files where they lie").classes("studio-part")
+        ui.label("Browse (no copy)").classes("studio-part")
         places = ui.column().classes("w-full gap-0 chooser-list")
         with ui.row():
-            ui.button("Take", on_click=finish_choice).props("no-caps unelevated")
-            ui.button("Close", on_click=dialog.close).props("no-caps flat")
+            add_button("Take", finish_choice, "unelevated")
+            add_button("Close", dialog.close, "flat")
     show_folder(None)

@@ -34,10 +34,9 @@ async def draw(studio: Studio) -> None:
     project = studio.project
     elements.draw_head("Fit", "Base parameters from the training segments, each with its sigma.")
     if not project.robot or not project.collect_words("train"):
-        ui.label("A fit needs a robot, and a segment of a log that is marked for training.")
+        line = "A fit needs a robot, and a segment of a log that is marked for training."
         where = "data" if project.robot else "robot"
-        elements.add_go_button(studio, f"To the {where}", where)
-        return
+        return elements.explain_missing(studio, line, f"To the {where}", where)
     step = project.find_step(project.current)
     with elements.add_card("What is fitted"):
         chosen: dict[str, Any] = studio.state.setdefault("fit", {})
@@ -58,7 +57,7 @@ async def draw(studio: Studio) -> None:
         draw_lost_effects()
         _draw_advanced(chosen, update_choice)
     if step is None:
-        return
+        return None
     fit = studio.read_result(step)
     _draw_stale(studio, step)
     _draw_verdict(fit)
@@ -68,6 +67,7 @@ async def draw(studio: Studio) -> None:
     _draw_choices(fit)
     elements.add_page_button(studio, step)
     elements.add_go_button(studio, "Diagnose", "missing")
+    return None
 
 
 def find_lost_effects(studio: Studio, task: Task) -> Iterator[str]:
@@ -84,8 +84,7 @@ def find_lost_effects(studio: Studio, task: Task) -> Iterator[str]:
         if lost_joints:
             yield (
                 f"this fit leaves out {use.effect} of joint {', '.join(lost_joints)}, which the "
-                "current "
-                "model has; add it to the robot to keep it"
+                "current model has; add it to the robot to keep it"
             )
 
 
@@ -148,7 +147,7 @@ def _draw_stale(studio: Studio, step: Step) -> None:
     """Says where these values are not those of the project as it is now, and where from."""
     elements.draw_stale_warnings(studio)
     with ui.row().classes("items-center no-wrap w-full"):
-        ui.label("these values come from").classes("studio-soft")
+        elements.draw_note("these values come from")
         elements.draw_step_line(studio, step)
 
 
@@ -160,9 +159,8 @@ def _draw_verdict(fit: Mapping[str, Any]) -> None:
         every = [_LIGHT.get(fit["valid_for"], "bad"), *lights.values()]
         doubtful_joints = [name for name, light in lights.items() if light != "good"]
         worst = max(every, key=LIGHTS.index)
-        elements.draw_light(
-            worst, worst + (f": joint {', '.join(doubtful_joints)}" if doubtful_joints else "")
-        )
+        where = f": joint {', '.join(doubtful_joints)}" if doubtful_joints else ""
+        elements.draw_light(worst, f"{worst}{where}")
         ui.label(fit["verdict"] or "nobody has judged this fit")
         with ui.element("div").classes("studio-joints"):
             for name, joint in fit["joints"].items():
@@ -173,7 +171,7 @@ def _draw_verdict(fit: Mapping[str, Any]) -> None:
                     elements.draw_light(light, joint_result["state"])
                     left, rms = format_percent(joint["relative_error"]), format_number(joint["rms"])
                     text = f"error {left}, residual {rms} {joint['unit']} rms"
-                    ui.label(text).classes("studio-soft")
+                    elements.draw_note(text)
                     elements.draw_lines(joint_result["why"])
         ui.label("Physical consistency").classes("studio-part")
         elements.draw_light(*_BUILT[fit.get("physically_consistent")])
@@ -189,10 +187,10 @@ def _draw_values(fit: Mapping[str, Any], relations: Mapping[str, str]) -> None:
     for p in parameters:
         tops[p["unit"]] = max(tops.get(p["unit"], 0.0), abs(p["value"]) + (p["sigma"] or 0.0))
     with elements.add_card(f"{len(parameters)} values"):
-        ui.label(
+        elements.draw_note(
             "The whisker is one sigma to either side, among values of the same unit; a name that "
             "is underlined shows what it is the sum of. Grey: the model does as well without."
-        ).classes("studio-soft")
+        )
         heads = ("parameter", "value", "sigma", "% sigma", "unit", "")
         rows = [_format_row(p, relations.get(p["name"], ""), tops[p["unit"]]) for p in parameters]
         elements.draw_table(heads, rows, [not p["essential"] for p in parameters])
@@ -202,7 +200,7 @@ def _format_row(p: Mapping[str, Any], relation: str, top: float) -> Sequence[str
     name, value, sigma = p["name"], p["value"], p["sigma"]
     shown = f"{name}\t{relation}" if relation else name
     if sigma is None:
-        return (shown, "set aside", "", "", p["unit"], "")
+        return (shown, "fixed", "", "", p["unit"], "")
     share = p["relative_sigma_percent"]
     percent = "-" if share is None else f"{share:.3g}" if share < 1e4 else ">10000"
     mark = "" if p["essential"] else " not essential"
@@ -231,37 +229,17 @@ def _draw_choices(fit: Mapping[str, Any]) -> None:
     processing, bands = fit["processing"], fit["bands"] or {"reasons": [], "noise": []}
     cutoffs = {"position filter": "position_cutoff", "parallel filter": "parallel_cutoff"}
     with elements.add_card("How the logs were processed, and why"):
-        elements.draw_lines(bands["reasons"])
-        rows = (
-            [
-                (
-                    title,
-                    f"{format_number(processing[name])} Hz",
-                    "chosen from the logs"
-                    if name in processing["automatic_cutoffs"]
-                    else "as it was requested",
-                )
-                for title, name in cutoffs.items()
-            ]
-            + [
-                (
-                    "samples, rows",
-                    f"{fit['samples']}, {fit['rows']}",
-                    "what the filters leave to know",
-                ),
-                (
-                    "condition number",
-                    format_number(fit["condition_scaled"]),
-                    "of W, columns of length one",
-                ),
-            ]
-            + [
-                (
-                    f"noise of position {noise['joint']}",
-                    f"{format_number(noise['deviation'])} {noise['unit']}",
-                    f"hides the motion above {format_number(noise['noise_crossover_hz'])} Hz",
-                )
-                for noise in bands["noise"]
-            ]
-        )
+        elements.draw_lines(bands["chosen_by"])
+        rows = []
+        for title, name in cutoffs.items():
+            why = "chosen from the logs" if name in processing["chosen"] else "as it was requested"
+            rows.append((title, f"{format_number(processing[name])} Hz", why))
+        counts, condition = f"{fit['samples']}, {fit['rows']}", fit["condition_scaled"]
+        rows.append(("samples, rows", counts, "what the filters leave to know"))
+        scaled = "of W, columns of length one"
+        rows.append(("condition number", format_number(condition), scaled))
+        for noise in bands["noise"]:
+            level = f"{format_number(noise['deviation'])} {noise['unit']}"
+            why = f"hides the motion above {format_number(noise['hides_above_hz'])} Hz"
+            rows.append((f"noise of position {noise['joint']}", level, why))
         elements.draw_table(("", "", ""), rows)

@@ -35,10 +35,14 @@ UNITS: Mapping[str, tuple[str, ...]] = {
 """Units that menus offer, SI first; "" is what the drive has. Any other one can be typed."""
 
 KINDS: Mapping[str, str] = {
-    "q": "position", "qd": "speed", "tau": "torque", "current": "current",
-    "qc": "commanded position", "qdd": "acceleration", "duty": "duty", "voltage": "voltage",
-    "temperature": "temperature",
-}  # fmt: skip
+    "q": "position",
+    "qd": "speed",
+    "tau": "torque",
+    "current": "current",
+    "qc": "commanded position",
+    "qdd": "acceleration",
+    **{name: name for name in ("duty", "voltage", "temperature")},
+}
 """What is known of joints, and what people call it; the first three always stand in the table."""
 
 _RANGED = "# by its range"  # as a suggested [log] says it
@@ -120,20 +124,17 @@ def build_choices(
     names: LogMap, joints: Sequence[JointSpec], columns: Collection[str]
 ) -> dict[str, ColumnChoice]:
     """Builds the column of each quantity from a map and from equal names."""
-    every = collect_names(joints, KINDS)
-    choices_by_quantity = {
-        quantity: ColumnChoice(quantity) for quantity in every if quantity in columns
-    }
+    choices = {name: ColumnChoice(name) for name in collect_names(joints, KINDS) if name in columns}
     for quantity, entry in names.expand_entries(joints).items():
-        present_column = next((name for name in entry.columns if name in columns), None)
-        if present_column is None and quantity in choices_by_quantity and not entry.strict:
+        present = next((name for name in entry.columns if name in columns), None)
+        if present is None and quantity in choices and not entry.strict:
             continue  # what the robot file says is for other logs
         unit = "" if entry.unit is None else entry.unit.text
         if entry.scale != 1.0:
             unit = f"{entry.scale:.12g} {unit or select_units(quantity, joints)[0]}".rstrip()
-        column = present_column or entry.columns[0].removesuffix(f" [{UNTOLD}]")
-        choices_by_quantity[quantity] = ColumnChoice(column, unit, int(entry.sign), entry.offset)
-    return choices_by_quantity
+        column = present or entry.columns[0].removesuffix(f" [{UNTOLD}]")
+        choices[quantity] = ColumnChoice(column, unit, int(entry.sign), entry.offset)
+    return choices
 
 
 def build_map_words(
@@ -161,9 +162,7 @@ def build_map_words(
             for joint in quantity:
                 del left[f"{kind}{joint}"]
     order = collect_names(joints, KINDS)
-    known = sorted(
-        left, key=lambda quantity: order.index(quantity) if quantity in order else len(order)
-    )
+    known = sorted(left, key=lambda name: order.index(name) if name in order else len(order))
     singles = [_format_word(quantity, left[quantity], joints) for quantity in known]
     return (*singles[: "time" in left], *words, *singles["time" in left :])
 
@@ -183,11 +182,10 @@ def _find_pattern(
         head, matched, tail = first.column.rpartition(label)
         pattern = dataclasses.replace(first, column=f"{head}{mark}{tail}")
         entry = MappedColumn((pattern.column,))
-        made = [
-            entry.expand_for_joint(joint.name, k, joint.name).columns[0]
-            for k, joint in enumerate(joints)
+        every = [
+            dataclasses.replace(first, column=entry.expand_for_joint(name, k, name).columns[0])
+            for k, name in enumerate(joint_choices)
         ]
-        every = [dataclasses.replace(first, column=column) for column in made]
         if matched and every == list(joint_choices.values()):
             return pattern
     return None
@@ -206,8 +204,7 @@ def _format_word(quantity: str, one: ColumnChoice, joints: Sequence[JointSpec]) 
     if not is_preserved or (one.unit and unit != one.unit) or one.offset:
         raise DataError(
             f'{quantity}: a column called "{one.column}" cannot be named with --map; rename it, or '
-            "say "
-            "it in [log] of the robot file"
+            "say it in [log] of the robot file"
         )
     return word
 
@@ -219,14 +216,10 @@ def parse_guess(
     names = build_map(tomllib.loads(text)["log"], "guess") if text else LogMap()
     choices = build_choices(names, joints, columns)
     ranged_lines = [line.split(" =")[0].strip('"') for line in text.split("\n") if _RANGED in line]
-    ranged = [
-        o
-        for o in choices
-        if o in ranged_lines or f"{split_quantity(o, joints)[0]}<j>" in ranged_lines
-    ]
-    return {
-        quantity: one for quantity, one in choices.items() if one != ColumnChoice(quantity)
-    }, tuple(ranged)
+    patterns = {name: f"{split_quantity(name, joints)[0]}<j>" for name in choices}
+    ranged = [name for name in choices if {name, patterns[name]} & {*ranged_lines}]
+    choices = {name: one for name, one in choices.items() if one != ColumnChoice(name)}
+    return choices, tuple(ranged)
 
 
 def apply_choice(

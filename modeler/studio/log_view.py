@@ -3,7 +3,7 @@
 import dataclasses
 import re
 from collections.abc import Awaitable, Callable, Mapping, Sequence
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,6 @@ from modeler.api.front_end import (
     COLORS,
     Curve,
     JointSpec,
-    ModelerError,
     Panel,
     Picture,
     Style,
@@ -24,10 +23,12 @@ from modeler.api.front_end import (
 )
 from modeler.studio import figures, timeline
 from modeler.studio.elements import (
+    add_button,
     add_card,
     add_robot_frame,
     draw_command_line,
     draw_folded,
+    draw_note,
     draw_table,
     draw_warnings,
 )
@@ -43,7 +44,7 @@ from modeler.studio.project import ProjectLog
 from modeler.studio.project_logs import ProjectLogs
 from modeler.studio.tasks import ROBOT, Task, TimeRange
 from modeler.studio.thresholds import THRESHOLDS
-from modeler.studio.timeline import Timeline
+from modeler.studio.timeline import add_player
 
 _SIGNS = {1: "+", -1: "\u2212"}
 
@@ -72,11 +73,9 @@ class MappingTable:
         self._dragged = ""
         self._cells: dict[str, Element] = {}
         self._chips: dict[str, Element] = {}
-        present_kinds = {split_quantity(quantity, joints)[0] for quantity in chosen}
-        driven = [kind for kind in ("tau", "current", "duty") if kind in present_kinds][:1] or [
-            "tau"
-        ]
-        shown = [kind for kind in KINDS if kind in ("q", "qd", *driven)]
+        present = {split_quantity(quantity, joints)[0] for quantity in chosen}
+        driven = next((kind for kind in ("tau", "current", "duty") if kind in present), "tau")
+        shown = [kind for kind in KINDS if kind in ("q", "qd", driven)]
         wide = ui.checkbox("all quantities").props("dense")
         wide.on_value_change(lambda: self._draw([*KINDS] if wide.value else shown))
         self._place = ui.element("div").classes("mapping-scroll")
@@ -93,11 +92,7 @@ class MappingTable:
         self, chosen: Mapping[str, ColumnChoice], ranged: Sequence[str], anew: bool = False
     ) -> None:
         """Shows other choices; cells that show them already stay as they are, unless `anew`."""
-        changed = [
-            quantity
-            for quantity in self._cells
-            if anew or chosen.get(quantity) != self.chosen.get(quantity)
-        ]
+        changed = [o for o in self._cells if anew or chosen.get(o) != self.chosen.get(o)]
         self.chosen, self.ranged = dict(chosen), ranged
         for quantity in changed:
             self._fill_cell(quantity)
@@ -126,9 +121,8 @@ class MappingTable:
                 with ui.element("tr"):
                     with ui.element("th"):
                         ui.label(name if name == "time" else f"joint {name}")
-                    for quantity in (
-                        ["time"] if name == "time" else [f"{kind}{name}" for kind in kinds]
-                    ):
+                    every = ["time"] if name == "time" else [f"{kind}{name}" for kind in kinds]
+                    for quantity in every:
                         with ui.element("td"):
                             self._add_cell(quantity)
         self._update_marks()
@@ -136,11 +130,7 @@ class MappingTable:
     def _add_common_unit_menu(self, kind: str) -> None:
         """One menu for the units of all joints."""
         every = [f"{kind}{joint.name}" for joint in self.joints]
-        units = list(
-            dict.fromkeys(
-                unit for quantity in every for unit in select_units(quantity, self.joints)
-            )
-        )
+        units = [unit for quantity in every for unit in select_units(quantity, self.joints)]
 
         async def apply_unit(event: Any) -> None:
             chosen = dict(self.chosen)
@@ -148,8 +138,8 @@ class MappingTable:
                 chosen[quantity] = self._convert_to_unit(quantity, chosen[quantity], event.value)
             await self.changed(chosen)
 
-        menu = ui.select(units, label="all in", on_change=apply_unit).classes("mapping-all")
-        menu.props("dense options-dense")
+        menu = ui.select([*dict.fromkeys(units)], label="all in", on_change=apply_unit)
+        menu.props("dense options-dense").classes("mapping-all")
 
     def _add_cell(self, quantity: str) -> None:
         """Where one of ours is said; a column can be dropped here."""
@@ -168,11 +158,10 @@ class MappingTable:
         if one is not None and one.column not in names:
             names.insert(0, one.column)
         with cell:
-            menu = ui.select(
-                names, value=one and one.column, with_input=True, clearable=quantity != "time",
-                on_change=lambda event: self._assign_column(quantity, event.value),
-            )  # fmt: skip
-            menu.props("dense options-dense").props["aria-label"] = f"column of {quantity}"
+            menu = ui.select(names, value=one and one.column, with_input=True)
+            menu.on_value_change(lambda event: self._assign_column(quantity, event.value))
+            menu.props(f"dense options-dense {'clearable' * (quantity != 'time')}")
+            menu.props["aria-label"] = f"column of {quantity}"
             menu.classes("mapping-column")
             if one is None:
                 return
@@ -196,25 +185,20 @@ class MappingTable:
             units.append(current_unit)
 
         async def apply_unit(event: Any) -> None:
-            self.chosen[quantity] = self._convert_to_unit(
-                quantity, self.chosen[quantity], event.value
-            )
+            one = self.chosen[quantity]
+            self.chosen[quantity] = self._convert_to_unit(quantity, one, event.value)
             await self.changed(self.chosen)
 
-        menu = ui.select(units, value=current_unit, with_input=True, new_value_mode="add-unique",
-                         on_change=apply_unit)  # fmt: skip
-        menu.props("dense options-dense hide-dropdown-icon").props["aria-label"] = (
-            f"unit of {quantity}"
-        )
-        menu.classes("mapping-unit")
+        menu = ui.select(units, value=current_unit, with_input=True, new_value_mode="add-unique")
+        menu.on_value_change(apply_unit)
+        menu.props("dense options-dense hide-dropdown-icon").classes("mapping-unit")
+        menu.props["aria-label"] = f"unit of {quantity}"
 
     async def _assign_column(self, quantity: str, column: str | None) -> None:
         chosen = dict(self.chosen)
         old = chosen.pop(quantity, None)
         if column:
-            chosen[quantity] = (
-                ColumnChoice(column) if old is None else dataclasses.replace(old, column=column)
-            )
+            chosen[quantity] = dataclasses.replace(old or ColumnChoice(column), column=column)
         await self.changed(chosen)
 
     async def _flip_sign(self, quantity: str, button: ui.button) -> None:
@@ -226,7 +210,6 @@ class MappingTable:
 
 _COLORS = (*COLORS[:5], *COLORS[6:])  # without sky, which blue is in the dark
 _PANELS = {"q": "position", "qd": "speed", "tau": "torque or force", "current": "current"}
-_SPEEDS = {speed: f"{speed:g} x" for speed in (0.1, 0.5, 1.0, 2.0, 5.0)}
 _ABSENT = (
     "this log has no column {} for {}: the mapping is that of all logs; take this one off the "
     "list, or let each be taken by its own guess"
@@ -269,19 +252,17 @@ class LogView:
             with ui.column().classes("data-pictures gap-2"):
                 self._plot = ui.plotly(figures.build_figure(self._build_picture({}), self.file))
                 self._plot.classes("w-full").on("plotly_relayout", self._update_zoom)
-                self._line = Timeline(self.file, self.known.ends)
+                self._line = add_player(self.file, self.known.ends)
                 self._line.connect_brush(self._hold_range)
-                self._line.on(
-                    "mark", lambda event: self._explain_mark(self.get_marks()[int(event.args)])
-                )
+                self._line.on("mark", lambda e: self._explain_mark(self.get_marks()[int(e.args)]))
                 self._line.on("role", lambda event: self._assign_role(event.args))
                 self._draw_controls()
             self._robot = ui.column().classes("data-robot")
         with add_card("Columns"):
             self._about = ui.column().classes("w-full gap-1")
-            joints, columns = self.project_logs.joints, self.guess.columns
+            joints, ranged = self.project_logs.joints, self._find_ranged()
             self._table = MappingTable(
-                joints, columns, self.chosen, self._find_ranged(), self._apply_mapping
+                joints, self.guess.columns, self.chosen, ranged, self._apply_mapping
             )
             self._said = draw_command_line("")
         with add_card("What modeler log says"):
@@ -302,22 +283,16 @@ class LogView:
 
     async def _ask_viewer(self, question: str, *arguments: Any, kind: str = "") -> Any:
         """What the viewer answers of this log; None where it has no answer, which is reported."""
-        try:
-            return await self.studio.ask_viewer(
-                question, self.project_logs.resolve_path(self.file), *arguments, kind=kind
-            )
-        except ModelerError as error:
-            self.studio.show_error(str(error))
+        place = self.project_logs.resolve_path(self.file)
+        return await self.studio.try_viewer(question, place, *arguments, kind=kind)
 
     def _select_columns(self, kinds: Sequence[str]) -> dict[str, ColumnChoice]:
         """Our name -> column, of those kinds, where the log has it."""
-        present = {
-            present: one for present, one in self.chosen.items() if one.column in self.guess.columns
-        }
+        joints, columns = self.project_logs.joints, self.guess.columns
         return {
-            o: one
-            for o, one in present.items()
-            if split_quantity(o, self.project_logs.joints)[0] in kinds
+            quantity: one
+            for quantity, one in self.chosen.items()
+            if one.column in columns and split_quantity(quantity, joints)[0] in kinds
         }
 
     def _convert_values(self, quantity: str, values: np.ndarray) -> np.ndarray:
@@ -329,11 +304,8 @@ class LogView:
     async def _draw_curves(self) -> None:
         """Asks for the window that is looked at, and draws it."""
         names = [one.column for one in self._select_columns([*_PANELS]).values()]
-        window, points = (
-            self.window or (-np.inf, np.inf),
-            THRESHOLDS.all_curve_points // max(1, len(names)),
-        )
-        more = (self.known.clock, "", points)
+        window = self.window or (-np.inf, np.inf)
+        more = (self.known.clock, "", THRESHOLDS.all_curve_points // max(1, len(names)))
         raw = await self._ask_viewer("log_window", names, *window, *more, kind="window")
         if raw is not None:
             self._plot.update_figure(figures.build_figure(self._build_picture(raw), self.file))
@@ -381,18 +353,16 @@ class LogView:
         film = await self._ask_viewer("log_film", columns, self.known.clock)
         if film is not None:
             q = {
-                quantity: self._convert_values(quantity, film[one.column])
+                quantity.removeprefix("q"): self._convert_values(quantity, film[one.column])
                 for quantity, one in positions.items()
             }
-            self._line.show_motion(
-                film["time"], {quantity.removeprefix("q"): v for quantity, v in q.items()}
-            )
+            self._line.show_motion(film["time"], q)
 
     def _offer_robot(self) -> None:
         count = len(self.project_logs.joints)
-        ui.label("There is no robot yet: no fit, and nothing moves.").classes("studio-soft")
+        draw_note("There is no robot yet: no fit, and nothing moves.")
         title = f"A robot with {count} joint{'s' * (count != 1)} to start from"
-        ui.button(title, on_click=self._create_robot).props("no-caps outline")
+        add_button(title, self._create_robot, "outline")
         _add_small_button("Describe it", lambda: self.studio.open_screen("robot"))
 
     async def _create_robot(self) -> None:
@@ -405,27 +375,20 @@ class LogView:
     def _draw_controls(self) -> None:
         """What is done with the cursor, with the segment that is held, and with the whole log."""
         with ui.row().classes("items-center gap-2"):
-            play = ui.button(icon="play_arrow").props('dense round unelevated aria-label="play"')
-            speed = ui.select(_SPEEDS, value=1.0).props('dense borderless aria-label="speed"')
-            play.on_click(lambda: self._line.toggle_play(speed.value))
-            faces = {True: "icon=pause aria-label=pause", False: "icon=play_arrow aria-label=play"}
-            self._line.on("playing", lambda event: play.props(faces[bool(event.args)]))
             self._ends = [
                 ui.number(label, format="%.4f", on_change=self._read_ends).classes("data-end")
                 for label in ("from s", "to s")
             ]
             with ui.row().classes("gap-1") as self._roles:
                 for role, name in timeline.ROLES.items():
-                    _add_small_button(name, lambda _, role=role: self._assign_role(role)).props(
-                        "outline", remove="flat"
-                    )
+                    _add_small_button(name, partial(self._assign_role, role), "outline")
                 _add_small_button("let in again", lambda: self._assign_role("in"))
                 _add_small_button("zoom to it", lambda: self._show_window(_get_ends(self.brush)))
         with ui.row().classes("items-center gap-2"):
             for title, change in timeline.build_log_changes(self.known.ends).items():
-                _add_small_button(title, lambda _, change=change: self._change_log(change))
+                _add_small_button(title, partial(self._change_log, change))
             _add_small_button("whole log", lambda: self._show_window(None))
-            self._roles_label = ui.label().classes("studio-soft")
+            self._roles_label = draw_note("")
 
     def _update_line(self) -> None:
         self._line.update_log(self.log, self.get_marks(), self.brush)
@@ -466,36 +429,27 @@ class LogView:
         map_options = " ".join(f"--map {word}" for word in words)
         self._said.text = map_options or "columns as they are called"
         self._about.clear()
-        missing = [
-            quantity
-            for quantity, one in self.chosen.items()
-            if one.column not in self.guess.columns
-        ]
+        missing = [o for o, one in self.chosen.items() if one.column not in self.guess.columns]
         with self._about:
             if "auto" in words:
-                text = "The logs name their columns differently: each is taken by its own guess."
-                ui.label(text).classes("studio-soft")
+                draw_note("The logs name their columns differently: each has its own guess.")
             elif self.project_logs.is_guess(self.guess):
                 ranged = ", dotted units by range alone" if self.guess.ranged else ""
-                ui.label(f"A guess by names{ranged}: check it.").classes("studio-soft")
+                draw_note(f"A guess by names{ranged}: check it.")
             if missing and "auto" not in words:
                 draw_warnings([_ABSENT.format(self.chosen[missing[0]].column, missing[0])])
                 _add_small_button("each by its own guess", self.project_logs.apply_each_guess)
 
     async def _apply_mapping(self, chosen: Mapping[str, ColumnChoice]) -> None:
         """Other columns, units or signs: words of `--map`, and the pictures at once."""
-        project_logs, joints = self.project_logs, self.project_logs.joints
-        try:
+        project_logs, joints, changed = self.project_logs, self.project_logs.joints, False
+        with self.studio.show_errors():
             for quantity, one in chosen.items():
                 apply_choice(np.empty(0), "", one, quantity, joints)  # says which units cannot be
-            words = build_map_words(
-                chosen, project_logs.resolve_default_columns(self.guess), joints
-            )
-            words = (*project_logs.select_general_words(self.guess), *words)
+            under = project_logs.resolve_default_columns(self.guess)
+            general = project_logs.select_general_words(self.guess)
+            words = (*general, *build_map_words(chosen, under, joints))
             changed = self.studio.change_project(mapping=words, mapped=True)
-        except ModelerError as error:
-            self.studio.show_error(str(error))
-            changed = False
         if not changed:
             self._table.update_choices(self.chosen, self._find_ranged(), anew=True)
             return
@@ -535,8 +489,7 @@ class LogView:
             for line, line_marks in rows.items():
                 self._draw_warning(line, line_marks)
             if not rows:
-                text = "no warnings" if result else "It is looked at."
-                ui.label(text).classes("studio-soft")
+                draw_note("no warnings" if result else "Inspecting")
             heads = ("channel", "unit", "from", "to", "resolution", "missing")
             if result:
                 draw_table(heads, map(_format_channel, result["channels"]))
@@ -549,17 +502,13 @@ class LogView:
                 draw_warnings([line])
             if marks:
                 _add_small_button("why", lambda: self._explain_mark(marks[0]))
-                _add_small_button("leave out", lambda: self._leave_out(marks)).props(
-                    "outline", remove="flat"
-                )
+                _add_small_button("leave out", lambda: self._leave_out(marks), "outline")
 
     def _leave_out(self, marks: Sequence[Mapping[str, Any]]) -> None:
-        log = self.log
-        for start, end in (
-            (mark["start"] - THRESHOLDS.warning_margin, mark["end"] + THRESHOLDS.warning_margin)
-            for mark in marks
-        ):
-            log = timeline.assign_role(log, TimeRange(round(start, 4), round(end, 4)), "out")
+        log, margin = self.log, THRESHOLDS.warning_margin
+        for mark in marks:
+            start, end = round(mark["start"] - margin, 4), round(mark["end"] + margin, 4)
+            log = timeline.assign_role(log, TimeRange(start, end), "out")
         self._change_log(lambda _: log)
 
     def _explain_mark(self, mark: Mapping[str, Any]) -> None:
@@ -569,14 +518,12 @@ class LogView:
         with ui.dialog(value=True) as dialog, ui.card().classes("studio-card"):
             ui.label(f"{mark['channel']}, {start:.4f} to {end:.4f} s").classes("studio-part")
             ui.label(mark["line"])
-            ui.label(_read_sentences().get(mark["kind"], "")).classes("studio-soft")
+            draw_note(_read_sentences().get(mark["kind"], ""))
             with ui.row():
-                _add_small_button("Leave out", lambda: self._leave_out([mark])).on_click(
-                    dialog.close
-                )
-                _add_small_button("Look at it", lambda: self._show_window(near)).on_click(
-                    dialog.close
-                )
+                leave_out = _add_small_button("Leave out", lambda: self._leave_out([mark]))
+                zoom = _add_small_button("Zoom in", lambda: self._show_window(near))
+                for button in (leave_out, zoom):
+                    button.on_click(dialog.close)
                 _add_small_button("Close", dialog.close)
 
 
@@ -586,8 +533,8 @@ def _read_sentences() -> dict[str, str]:
     return parse_toml(read_text(locate_resources("templates") / "studio" / "doubts.toml"))
 
 
-def _add_small_button(title: str, act: Callable[..., Any]) -> ui.button:
-    return ui.button(title, on_click=act).props("dense flat no-caps").classes("no-wrap")
+def _add_small_button(title: str, act: Callable[..., Any], face: str = "flat") -> ui.button:
+    return add_button(title, act, f"dense {face}").classes("no-wrap")
 
 
 def _get_ends(stretch: TimeRange | None) -> tuple[float, float] | None:

@@ -9,18 +9,21 @@ from nicegui import ui
 from modeler.api.front_end import ModelerError, format_percent, parse_robot_text
 from modeler.studio import figures
 from modeler.studio.elements import (
+    add_button,
     add_card,
-    add_go_button,
     add_robot_frame,
     add_run_button,
+    draw_error,
     draw_head,
+    draw_note,
     draw_stale_warnings,
     draw_table,
+    explain_missing,
 )
 from modeler.studio.studio import Studio
 from modeler.studio.tasks import Step, Task
 from modeler.studio.thresholds import THRESHOLDS
-from modeler.studio.timeline import Timeline
+from modeler.studio.timeline import add_player
 
 if TYPE_CHECKING:  # who only draws loads nothing that computes
     from modeler.studio.robot_views import MotionPreview
@@ -38,16 +41,14 @@ async def draw(studio: Studio) -> None:
     )
     project = studio.project
     if not project.robot:
-        ui.label("There is no robot yet.")
-        add_go_button(studio, "To the robot", "robot")
-        return
+        return explain_missing(studio, "There is no robot yet.", "To the robot", "robot")
     if project.model_file:
         draw_stale_warnings(studio)
     with add_card("Objective"):
         _draw_request(studio)
     step = project.find_step_about("excite")
     if step is None:
-        return
+        return None
     try:
         result = studio.read_result(step)
         look: MotionPreview = await studio.ask_viewer("motion_look", step.output, step.result_file)
@@ -55,7 +56,8 @@ async def draw(studio: Studio) -> None:
             _draw_result(studio, step, result)
         await _draw_motion(studio, step, look)
     except ModelerError as error:
-        ui.label(str(error)).classes("studio-error").props("role=alert")
+        draw_error(error)
+    return None
 
 
 def find_questions(result: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
@@ -72,9 +74,8 @@ def find_questions(result: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 def _draw_request(studio: Studio) -> None:
     project = studio.project
-    chosen = studio.state.setdefault(
-        _CHOSEN, {"between": _ALL, "duration": THRESHOLDS.motion_duration}
-    )
+    default = {"between": _ALL, "duration": THRESHOLDS.motion_duration}
+    chosen = studio.state.setdefault(_CHOSEN, default)
     whose = "the current model" if project.model_file else "the robot"
     options = {_ALL: f"all parameters of {whose}"}
     step = project.find_step_about("diagnose")
@@ -87,29 +88,27 @@ def _draw_request(studio: Studio) -> None:
         duration = ui.number("duration, s", value=chosen["duration"], min=1, max=600, step=1)
         duration.classes("w-32")
     if len(options) == 1 and project.model_file:
-        ui.label(
+        text = (
             "For two effects that a diagnosis cannot distinguish, the motion that does is offered."
-        ).classes("studio-soft studio-small")
+        )
+        draw_note(text, "studio-small")
 
     def open_limits() -> None:
         studio.state["robot tab"] = "Limits"
         studio.open_screen("robot")
 
     with ui.row().classes("items-center"):
-        ui.label("Its limits are those of the robot file.").classes("studio-soft")
-        ui.button("Change them", on_click=open_limits).props("no-caps flat icon-right=east")
+        draw_note("Its limits are those of the robot file.")
+        add_button("Change them", open_limits, "flat icon-right=east")
     renew = add_run_button(
-        studio, "Find the motion",
-        lambda: Task(
-            "excite", between=chosen["between"], duration=chosen["duration"],
-            limit=tuple(find_changed_limits(studio)),
-        ),
-    )  # fmt: skip
+        studio,
+        "Find the motion",
+        lambda: Task("excite", limit=tuple(find_changed_limits(studio)), **chosen),
+    )
 
     def update_request() -> None:
-        chosen.update(
-            between=between.value, duration=float(duration.value or THRESHOLDS.motion_duration)
-        )
+        chosen["between"] = between.value
+        chosen["duration"] = float(duration.value or THRESHOLDS.motion_duration)
         renew()
 
     between.on_value_change(update_request)
@@ -124,9 +123,8 @@ def find_changed_limits(studio: Studio) -> list[str]:
     """
     if not studio.project.model_file:
         return []
-    known = parse_robot_text(
-        str(studio.read_model(studio.project.collect_path()[-1])["robot_text"]), "model"
-    )
+    model = studio.read_model(studio.project.collect_path()[-1])
+    known = parse_robot_text(str(model["robot_text"]), "model")
     robot = parse_robot_text(studio.read_text(studio.project.robot), studio.project.robot)
     return [
         f"{joint}={','.join(f'{value:.6g}' for value in vars(joint_limits).values())}"
@@ -154,18 +152,14 @@ def _draw_result(studio: Studio, step: Step, result: Mapping[str, Any]) -> None:
     draw_table(("joint", *_USED), rows)
 
     async def download_parquet() -> None:
-        place = Path(step.output)
-        try:
-            content = await studio.ask_viewer("motion_parquet", str(place), step.result_file)
-        except ModelerError as error:
-            studio.show_error(str(error))
-            return
-        ui.download.content(content, f"{place.stem}.parquet")
+        content = await studio.try_viewer("motion_parquet", step.output, step.result_file)
+        if content is not None:
+            ui.download.content(content, f"{Path(step.output).stem}.parquet")
 
     with ui.row():
         name, place = f"motion-{step.number}.csv", studio.folder / step.output
-        ui.button("Download CSV", on_click=lambda: ui.download.file(place, name)).props("no-caps")
-        ui.button("Download Parquet", on_click=download_parquet).props("no-caps")
+        add_button("Download CSV", lambda: ui.download.file(place, name))
+        add_button("Download Parquet", download_parquet)
 
 
 def _describe_separation(separation: Mapping[str, Any] | None) -> list[str]:
@@ -188,17 +182,6 @@ async def _draw_motion(studio: Studio, step: Step, look: "MotionPreview") -> Non
             figures.draw_picture(look.picture, name)
         with ui.column().classes("studio-beside w-full"):
             frame = await add_robot_frame(studio, "calc(100vh - 260px)", alone=True)
-            with ui.row().classes("items-center no-wrap w-full"):
-                button = ui.button(icon="play_arrow").props("round aria-label='play the motion'")
-                ends = float(look.time[0]), float(look.time[-1])
-                line = Timeline(name, ends).style(
-                    "flex: 1 1 0; min-width: 0; margin: 8px 0 16px 8px"
-                )
+            line = add_player(name, (float(look.time[0]), float(look.time[-1])))
             line.frame = frame.element_id
-            button.on_click(lambda: line.toggle_play(1.0))
-
-            def update_button(event: Any) -> None:
-                button.props(f"icon={'pause' if event.args else 'play_arrow'}")
-
-            line.on("playing", update_button)
             line.show_motion(look.time, look.q)

@@ -138,9 +138,8 @@ class RunningCommand:
         try:
             status = await self._follow_process()
         except (OSError, ValueError) as error:  # ValueError: a NUL in a word
-            return self._finish(
-                1, f"{self.title}: cannot be started ({error}); check {self.folder}"
-            )
+            line = f"{self.title}: cannot be started ({error}); check {self.folder}"
+            return self._finish(1, line)
         except asyncio.CancelledError:  # the studio ends
             self._send_signal(signal.SIGINT)
             if self._process is not None:

@@ -65,11 +65,8 @@ class ProjectLog:
     def get_parts(self, role: str) -> list[LogPart]:
         """Returns the log's time ranges of one role, "train" or "test"."""
         parts: tuple[TimeRange, ...] = getattr(self, role)
-        return [
-            LogPart(self.file, time_range)
-            for part in parts
-            for time_range in part.subtract_gaps(self.out)
-        ]
+        left = (time_range for part in parts for time_range in part.subtract_gaps(self.out))
+        return [LogPart(self.file, time_range) for time_range in left]
 
 
 @dataclass(frozen=True)
@@ -121,14 +118,16 @@ class Project:
     def find_step_about(self, verb: str, number: int | None = None) -> Step | None:
         """Finds the last step of a verb about a model; None: the current one."""
         parent = self.current if number is None else number
-        matching_steps = [
-            step for step in self.steps if step.verb == verb and step.parent == parent
-        ]
-        return matching_steps[-1] if matching_steps else None
+        every = [step for step in self.steps if step.verb == verb and step.parent == parent]
+        return every[-1] if every else None
 
     def collect_parts(self, role: str) -> tuple[LogPart, ...]:
         """Collects all time ranges of one role, "train" or "test"."""
         return tuple(part for log in self.logs for part in log.get_parts(role))
+
+    def collect_judged_parts(self) -> tuple[LogPart, ...]:
+        """Collects the held-out time ranges; those of training where none is held out."""
+        return self.collect_parts("test") or self.collect_parts("train")
 
     def collect_words(self, role: str) -> list[str]:
         """Collects the time ranges of a role as words of a command."""
@@ -162,14 +161,9 @@ def _format_toml(value: Any) -> str:
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if dataclasses.is_dataclass(value):  # what is as usual is left out
-        changed_fields = {
-            field.name: getattr(value, field.name)
-            for field in dataclasses.fields(value)
-            if getattr(value, field.name) != field.default
-        }
-        entries = ", ".join(
-            f"{name} = {_format_toml(item)}" for name, item in changed_fields.items()
-        )
+        every = ((getattr(value, field.name), field) for field in dataclasses.fields(value))
+        changed = [(field.name, item) for item, field in every if item != field.default]
+        entries = ", ".join(f"{name} = {_format_toml(item)}" for name, item in changed)
         return f"{{ {entries} }}"
     if isinstance(value, list | tuple):
         return f"[{', '.join(_format_toml(item) for item in value)}]"

@@ -72,9 +72,8 @@ class ProjectLogs:
         """Looks at the columns of a log."""
         robot, place = self.studio.project.robot, self.resolve_path(file)
         try:
-            guess = await self.studio.ask_viewer(
-                "log_guess", place, robot and self.resolve_path(robot)
-            )
+            robot_place = robot and self.resolve_path(robot)
+            guess = await self.studio.ask_viewer("log_guess", place, robot_place)
             self.logs[file] = KnownLog(guess, size=Path(place).stat().st_size)
             if not robot:
                 self.joints = build_default_joints(max(len(self.joints), guess.joints))
@@ -87,37 +86,24 @@ class ProjectLogs:
         if known.guess is None:
             return
         try:
-            time = self.resolve_columns(known.guess).get("time", ColumnChoice("time"))
-            time_words = build_map_words(
-                {"time": time}, {"time": ColumnChoice("time")}, self.joints
-            )
-            setting_words = (
-                word for word in self.studio.project.mapping if word.startswith(_SETTINGS)
-            )
-            clock = (
-                (*setting_words, *time_words)
-                if time.column in known.guess.columns
-                else tuple(setting_words)
-            )
+            plain = ColumnChoice("time")
+            time = self.resolve_columns(known.guess).get("time", plain)
+            words = build_map_words({"time": time}, {"time": plain}, self.joints)
+            clock = tuple(w for w in self.studio.project.mapping if w.startswith(_SETTINGS))
+            clock += words if time.column in known.guess.columns else ()
             facts = await self.studio.ask_viewer("log_facts", self.resolve_path(file), clock)
-            ends = facts.start, facts.end
-            self.logs[file] = replace(
-                known, clock=clock, ends=ends, rows=facts.rows, units=facts.units
-            )
+            rows, ends, units = facts.rows, (facts.start, facts.end), facts.units
+            self.logs[file] = replace(known, clock=clock, ends=ends, rows=rows, units=units)
         except ModelerError as error:
             self.logs[file] = KnownLog(error=str(error))
 
     def select_general_words(self, guess: LogGuess) -> tuple[str, ...]:
         """Selects the words of the mapping that name no column of this log."""
-        words = self.studio.project.mapping
-        entries_by_word = {
-            word: parse_map_options([word]).expand_entries(self.joints).values() for word in words
-        }
-        far = [
-            w
-            for w, map_entries in entries_by_word.items()
-            if not any({*e.columns} & {*guess.columns} for e in map_entries)
-        ]
+        words, far = self.studio.project.mapping, []
+        for word in words:
+            entries = parse_map_options([word]).expand_entries(self.joints).values()
+            if not any({*entry.columns} & {*guess.columns} for entry in entries):
+                far.append(word)
         return tuple(w for w in far if AUTO in words or w.startswith(_SETTINGS))
 
     def get_guess(self, file: str) -> LogGuess:
@@ -132,10 +118,9 @@ class ProjectLogs:
         columns = self._build_choices(words, guess)
         if AUTO not in words:
             return columns
-        map_entries = parse_map_options(words).expand_entries(
-            self.joints
-        )  # those of other logs stay out
-        named = {name for name, entry in map_entries.items() if {*entry.columns} & {*guess.columns}}
+        entries = parse_map_options(words).expand_entries(self.joints)
+        # Those of other logs stay out.
+        named = {name for name, entry in entries.items() if {*entry.columns} & {*guess.columns}}
         return self.resolve_default_columns(guess) | {name: columns[name] for name in named}
 
     def resolve_default_columns(self, guess: LogGuess) -> dict[str, ColumnChoice]:
@@ -177,8 +162,7 @@ class ProjectLogs:
         """Reads the result of the last inspection; empty without one."""
         step = self.find_last_inspection(file)
         try:
-            return (
-                dict(json.loads(read_text(self.studio.folder / step.result_file))) if step else {}
-            )
+            text = read_text(self.studio.folder / step.result_file) if step else "{}"
+            return dict(json.loads(text))
         except (OSError, ValueError):
             return {}

@@ -5,7 +5,7 @@ import contextlib
 import dataclasses
 import json
 import time
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -33,7 +33,15 @@ from modeler.api.front_end import (
     set_joint_effect,
     write_atomically,
 )
-from modeler.studio.elements import RobotFrame, add_card, add_run_button, draw_head
+from modeler.studio.elements import (
+    RobotFrame,
+    add_button,
+    add_card,
+    add_run_button,
+    draw_error,
+    draw_head,
+    draw_note,
+)
 from modeler.studio.file_inputs import add_drop_zone, choose_files
 from modeler.studio.project import DRAFT
 from modeler.studio.studio import Studio
@@ -105,7 +113,6 @@ Taken = Callable[[str, tuple[str, ...]], Awaitable[None]]
 """Is called with the text of a robot file, and notes on how it was made."""
 
 _FILES = (".urdf", ".xml", ".mjcf", ".par", ".toml")
-_AS_HEADED = "Detect from headings"
 _EXAMPLE = "i\t\u03b1 [deg]\ta [mm]\td [mm]\t\u03b8\n1\t0\t0\t333\tq1\n2\t-90\t0\t0\tq2"
 
 
@@ -131,38 +138,27 @@ def draw_choices(studio: Studio, before: str, on_taken: Taken) -> None:
 def _draw_paste(studio: Studio, before: str, on_taken: Taken) -> None:
     area = ui.textarea(placeholder=_EXAMPLE).props("outlined dense rows=5 aria-label='table'")
     area.classes("w-full")
-    ui.label(
-        "From a spreadsheet or a paper, with headings or without; degrees and mm by their headings."
-    ).classes("studio-soft")
+    draw_note("From a spreadsheet or a paper; headings may be left out, and may name deg and mm.")
     with ui.row().classes("items-center"):
-        whose = ui.select(
-            [_AS_HEADED, *CONVENTIONS], value=_AS_HEADED, label="DH convention"
-        ).classes("w-48")
+        conventions = {"": "Detect from headings", **{name: name for name in CONVENTIONS}}
+        convention = ui.select(conventions, value="", label="DH convention").classes("w-48")
 
         async def take_table() -> None:
-            try:
-                table = parse_pasted_table(
-                    str(area.value or ""), "" if whose.value == _AS_HEADED else str(whose.value)
-                )
-                if not table.has_headings and whose.value == _AS_HEADED:
+            with studio.show_errors():
+                table = parse_pasted_table(str(area.value or ""), convention.value)
+                if not table.has_headings and not convention.value:
                     raise ModelerError(
                         "the table has no headings, and books order their columns differently: "
                         "choose the DH convention, or paste the headings too"
                     )
-                text = (
-                    insert_pasted_table(before, table)
-                    if before
-                    else build_pasted_robot(table, "robot")
-                )
-            except ModelerError as error:
-                studio.show_error(str(error))
-                return
-            notes = (f"taken as a table of convention {table.convention}", *table.notes)
-            if table.symbols:
-                notes += (f"written into [symbols]: {', '.join(table.symbols)}: give their values",)
-            await on_taken(text, notes)
+                new = build_pasted_robot(table, "robot") if not before else ""
+                notes = (f"taken as a table of convention {table.convention}", *table.notes)
+                if table.symbols:
+                    symbols = ", ".join(table.symbols)
+                    notes += (f"written into [symbols]: {symbols}: give their values",)
+                await on_taken(new or insert_pasted_table(before, table), notes)
 
-        ui.button("Take this table", on_click=take_table).props("no-caps unelevated")
+        add_button("Take this table", take_table, "unelevated")
 
 
 def _draw_template(studio: Studio, on_taken: Taken) -> None:
@@ -170,41 +166,35 @@ def _draw_template(studio: Studio, on_taken: Taken) -> None:
         kind = ui.select(list(TEMPLATES), value=TEMPLATES[0], label="kind").classes("w-40")
         joints = ui.input("joints", value="RRR").classes("w-32")
         joints.props("hint='R turns, P slides'").bind_visibility_from(kind, "value", value="serial")
-        whose = ui.select(list(CONVENTIONS), value=CONVENTIONS[0], label="DH convention")
-        whose.classes("w-36").bind_visibility_from(kind, "value", value="serial")
+        table = ui.select(list(CONVENTIONS), value=CONVENTIONS[0], label="DH convention")
+        table.classes("w-36").bind_visibility_from(kind, "value", value="serial")
 
     async def create_robot() -> None:
         task = Task("new", template=str(kind.value))
         if kind.value == "serial":
-            task = dataclasses.replace(task, joints=str(joints.value), convention=str(whose.value))
+            task = dataclasses.replace(task, joints=str(joints.value), convention=str(table.value))
         await _take_command_robot(studio, task, on_taken)
 
-    ui.button("Begin", on_click=create_robot).props("no-caps unelevated")
+    add_button("Begin", create_robot, "unelevated")
 
 
 def _draw_file(studio: Studio, on_taken: Taken) -> None:
     async def open_file(files: list[str]) -> None:
-        file = files[0]
-        if Path(file).suffix.lower() == ".toml":
-            try:
-                await on_taken(studio.read_text(file), ())
-            except ModelerError as error:
-                studio.show_error(str(error))
+        if Path(files[0]).suffix.lower() != ".toml":
+            await _take_command_robot(studio, Task("convert", file=files[0]), on_taken)
             return
-        await _take_command_robot(studio, Task("convert", file=file), on_taken)
+        with studio.show_errors():
+            await on_taken(studio.read_text(files[0]), ())
 
-    ui.label("URDF, MJCF, SYMORO's .par, or a robot file").classes("studio-soft")
-    zone = add_drop_zone(
-        "originals", "drop it here, or choose it",
-        lambda files: background_tasks.create(open_file(files)), studio.show_error,
-    )  # fmt: skip
+    def begin_opening(files: list[str]) -> None:
+        background_tasks.create(open_file(files))
+
+    draw_note("URDF, MJCF, SYMORO's .par, or a robot file")
+    label = "drop it here, or choose it"
+    zone = add_drop_zone("originals", label, begin_opening, studio.show_error)
     zone.props(remove="multiple").classes("w-full")
-    ui.button(
-        "Browse (no copy)", icon="folder_open",
-        on_click=lambda: choose_files(
-            studio, _FILES, lambda files: background_tasks.create(open_file(files))
-        ),
-    ).props("no-caps outline")  # fmt: skip
+    browse = partial(choose_files, studio, _FILES, begin_opening)
+    add_button("Browse (no copy)", browse, "outline", icon="folder_open")
 
 
 def _draw_builtin(on_taken: Taken) -> None:
@@ -212,11 +202,9 @@ def _draw_builtin(on_taken: Taken) -> None:
         await on_taken(read_builtin_robot(str(name.value)), ())
 
     with ui.row().classes("items-center"):
-        name = ui.select(
-            list(list_builtin_robots()), value="puma560", label="robot", with_input=True
-        )
-        name.classes("w-56")
-        ui.button("Take it", on_click=take_builtin).props("no-caps unelevated")
+        robots = list(list_builtin_robots())
+        name = ui.select(robots, value="puma560", label="robot", with_input=True).classes("w-56")
+        add_button("Take it", take_builtin, "unelevated")
 
 
 async def _take_command_robot(studio: Studio, task: Task, on_taken: Taken) -> None:
@@ -269,13 +257,12 @@ class _RobotEditor:
             with ui.dialog() as ways, ui.card().classes("studio-card studio-dialog"):
                 ui.label("Another robot, or another table for this one").classes("studio-part")
                 draw_choices(studio, self.document.text, self.take_robot)
-            self.changing = [
-                ui.button(icon="undo", on_click=lambda: self.move_in_history(True))
-                .props("flat round dense aria-label='undo the edit'").tooltip("undo (Ctrl+Z)"),
-                ui.button(icon="redo", on_click=lambda: self.move_in_history(False))
-                .props("flat round dense aria-label='redo the edit'").tooltip("redo (Ctrl+Y)"),
-                ui.button("Another robot or table", on_click=ways.open).props("no-caps outline"),
-            ]  # fmt: skip
+            self.changing = []
+            for what, key, back in (("undo", "Z", True), ("redo", "Y", False)):
+                button = ui.button(icon=what, on_click=partial(self.move_in_history, back))
+                button.props(f"flat round dense aria-label='{what} the edit'")
+                self.changing.append(button.tooltip(f"{what} (Ctrl+{key})"))
+            self.changing.append(add_button("Another robot or table", ways.open, "outline"))
         self.error = ui.label().classes("studio-error robot-error").props("role=alert")
         self.notes = ui.column().classes("studio-soft gap-0")
         with ui.element("div").classes("studio-split"):
@@ -312,30 +299,20 @@ class _RobotEditor:
             self._connect_edits(
                 self.cells, cell=self._edit_cell, block=self._paste_block, row=self._edit_row
             )
-            self.cells.on(
-                "step",
-                lambda event: self.move_in_history(event.args["detail"] == "undo"),
-                args=["detail"],
-            )
+
+            def move(event: Any) -> Any:
+                return self.move_in_history(event.args["detail"] == "undo")
+
+            self.cells.on("step", move, args=["detail"])
             _draw_hint(
                 "Arrows and Enter move, Ctrl+Enter adds a row; a block from a spreadsheet may "
                 'be pasted. Angles in rad or "90 deg", lengths in m or "40 mm".'
             )
-            self.letters = ui.element("div").classes("studio-scroll")
-            self._connect_edits(
-                self.letters,
-                cell=self._edit_symbol,
-                block=partial(self._paste_cells, self._edit_symbol),
-            )
+            self.letters = self._add_named_cells(self._edit_symbol)
         with add_panel("Effects"):
             self.effects = ui.element("div").classes("studio-scroll")
         with add_panel("Limits"):
-            self.ranges = ui.element("div").classes("studio-scroll")
-            self._connect_edits(
-                self.ranges,
-                cell=self._edit_limit,
-                block=partial(self._paste_cells, self._edit_limit),
-            )
+            self.ranges = self._add_named_cells(self._edit_limit)
             _draw_hint(
                 "Of simulated and exciting motions, and of the sliders: rad or m, rad/s or "
                 "m/s, and so on. An empty row has the limits that every joint has."
@@ -343,13 +320,16 @@ class _RobotEditor:
         with add_panel("Base parameters") as self.base:
             pass
         with add_panel("Text"):
-            self.editor = ui.codemirror(
-                self.document.text,
-                language="TOML",
-                on_change=self._apply_typed,
-                theme="vscodeLight",
-            ).classes("studio-text w-full")
+            text = self.document.text
+            self.editor = ui.codemirror(text, language="TOML", theme="vscodeLight")
+            self.editor.on_value_change(self._apply_typed).classes("studio-text w-full")
             self.editor.set_enabled(not self.studio.is_read_only)
+
+    def _add_named_cells(self, edit: Any) -> ui.element:
+        """Cells of rows that have names, edited one by one or as a block."""
+        cells = ui.element("div").classes("studio-scroll")
+        self._connect_edits(cells, cell=edit, block=partial(self._paste_cells, edit))
+        return cells
 
     def _connect_edits(self, element: ui.element, **handlers: Any) -> None:
         """Edits from a script; one that fails reports its line."""
@@ -369,20 +349,16 @@ class _RobotEditor:
 
     async def take_robot(self, text: str, notes: tuple[str, ...]) -> None:
         """Takes a robot that came from elsewhere into the project."""
-        try:
-            if self.studio.is_read_only:
-                raise ModelerError(self.studio.read_only_reason)
+        with self.studio.show_errors():
+            self.studio.check_writable()
             self.document.change_text(text)
             self.studio.state["robot notes"] = notes
             look: RobotPreview = await self.studio.ask_viewer("robot_look", text)
             save_text(self.studio.folder, text, not look.error)
-        except ModelerError as error:
-            self.studio.show_error(str(error))
-            return
-        if look.error:
-            self.studio.redraw()
-        else:
-            self.studio.change_project(redraw=True, robot=ROBOT)
+            if look.error:
+                self.studio.redraw()
+            else:
+                self.studio.change_project(redraw=True, robot=ROBOT)
 
     async def move_in_history(self, back: bool) -> None:
         """Undoes the last edit of the text (`back`), or redoes it."""
@@ -434,9 +410,8 @@ class _RobotEditor:
 
     async def _edit_symbol(self, row: int, column: int, text: str) -> None:
         if self.look is not None and column == 1 and row < len(self.look.symbols):
-            await self.change_text(
-                replace_symbol(self.document.text, self.look.symbols[row][0], text)
-            )
+            symbol = self.look.symbols[row][0]
+            await self.change_text(replace_symbol(self.document.text, symbol, text))
 
     async def _edit_limit(self, row: int, column: int, text: str) -> None:
         if self.look is None or not 0 < column < len(_LIMITS) or row >= len(self.look.joints):
@@ -459,9 +434,8 @@ class _RobotEditor:
     async def _edit_effect(self, effect: str, joint: str, is_wanted: bool) -> None:
         everyone = () if self.look is None else self.look.everyone
         try:
-            await self.change_text(
-                set_joint_effect(self.document.text, effect, joint, is_wanted, everyone)
-            )
+            changed = set_joint_effect(self.document.text, effect, joint, is_wanted, everyone)
+            await self.change_text(changed)
         except ModelerError as error:
             self._show_error(str(error))
 
@@ -493,10 +467,8 @@ class _RobotEditor:
         self._show_cells(look, all_cells)
         self._show_named_tables(self.look or look, look, all_cells)
         if look.content is None:
-            if self.frame is None and (self.studio.folder / ROBOT).exists():
-                await self._draw_picture(
-                    self.studio.read_text(ROBOT)
-                )  # the last one that was right
+            if self.frame is None and (self.studio.folder / ROBOT).exists():  # the last right one
+                await self._draw_picture(self.studio.read_text(ROBOT))
             return
         self.title.text = look.name
         notes = (*self.studio.state.get("robot notes", ()), *look.notes)
@@ -528,17 +500,8 @@ class _RobotEditor:
         if look.table is None:
             return
         names = look.names or (self.look.names if self.look else ())
-        self._run_script(
-            self.cells,
-            columns=look.table.columns,
-            rows=look.table.rows,
-            all=all_cells,
-            wrong=look.wrong_cell,
-            line=look.error,
-            reading=self.studio.is_read_only,
-            names=names,
-            fixed=0,
-        )
+        columns, rows = look.table.columns, look.table.rows
+        self._fill_cells(self.cells, columns, rows, look.wrong_cell, names, 0, look, all_cells)
 
     def _show_named_tables(
         self, good: "RobotPreview", look: "RobotPreview", all_cells: bool
@@ -555,9 +518,7 @@ class _RobotEditor:
             wrong = None
             if look.named[:1] == (table,) and look.named[1] in keys:
                 wrong = (keys.index(look.named[1]), -1)
-            self._run_script(element, columns=columns, rows=rows, all=all_cells, wrong=wrong,
-                         line=look.error, reading=self.studio.is_read_only, names=names,
-                         fixed=1)  # fmt: skip
+            self._fill_cells(element, columns, rows, wrong, names, 1, look, all_cells)
 
     def _show_effects(self, look: "RobotPreview") -> None:
         self.effects.clear()
@@ -582,10 +543,22 @@ class _RobotEditor:
         box.set_enabled(not self.studio.is_read_only)
         box.on_value_change(lambda event: self._edit_effect(effect, joint, bool(event.value)))
 
-    def _run_script(self, element: ui.element, **content: Any) -> None:
+    def _fill_cells(
+        self,
+        element: ui.element,
+        columns: Sequence[str],
+        rows: Sequence[Sequence[str]],
+        wrong: tuple[int, int] | None,
+        names: Sequence[Sequence[str]],
+        fixed: int,
+        look: "RobotPreview",
+        all_cells: bool,
+    ) -> None:
+        """Shows cells by a script: those before `fixed` cannot be edited, `wrong` has a mistake."""
+        content = {"columns": columns, "rows": rows, "wrong": wrong, "names": names, "fixed": fixed}
+        content |= {"all": all_cells, "line": look.error, "reading": self.studio.is_read_only}
         words = json.dumps(content, separators=(",", ":"))
-        call = f"showCells({json.dumps(element.html_id)}, {words})"
-        element.client.run_javascript(call)
+        element.client.run_javascript(f"showCells({json.dumps(element.html_id)}, {words})")
 
     def _show_error(self, line: str) -> None:
         self.error.text = line
@@ -600,36 +573,31 @@ class _RobotEditor:
             self.stale = ui.label("of an earlier table: derive again").classes("studio-doubtful")
             self.stale.set_visibility(False)
             self.step_shown = _find_last_derivation(studio)
-            if self.step_shown is None:
-                return
             step = self.step_shown
+            if step is None:
+                return None
+            files = step.result_file, step.robot_copy
             try:
-                html, facts = await studio.ask_viewer(
-                    "relations_of", step.result_file, step.robot_copy
-                )
+                html, facts = await studio.ask_viewer("relations_of", *files)
             except ModelerError as error:
-                ui.label(str(error)).classes("studio-error")
-                return
+                return draw_error(error)
             ui.label(_describe_counts(facts))
             _draw_hint(
                 "Point at one, or go there by Tab: its links light up, and every term is reported."
             )
             ui.html(html, sanitize=False).classes("w-full")
+        return None
 
     def _update_stale(self) -> None:
-        step = self.step_shown
-        has_copy = step is not None and (self.studio.folder / step.robot_copy).exists()
-        old = (
-            has_copy
-            and step is not None
-            and self.studio.read_text(step.robot_copy) != self.document.text
-        )
-        self.stale.set_visibility(old)
+        step, folder = self.step_shown, self.studio.folder
+        if step is not None and (folder / step.robot_copy).exists():
+            old = self.studio.read_text(step.robot_copy) != self.document.text
+            self.stale.set_visibility(old)
 
 
 def _draw_hint(text: str) -> None:
     """What one may do here."""
-    ui.label(text).classes("studio-soft studio-small")
+    draw_note(text, "studio-small")
 
 
 def _find_last_derivation(studio: Studio) -> Step | None:
@@ -638,13 +606,10 @@ def _find_last_derivation(studio: Studio) -> Step | None:
 
 
 def _describe_counts(facts: dict[str, Any]) -> str:
-    counts = ", ".join(
-        f"{count} {kind.replace('_', ' ')}" for kind, count in facts["counts"].items() if count
-    )
-    smallest_retained, dropped = facts["rank_gap"]
-    gap = (
-        f"the smallest singular value kept is {smallest_retained:.3g}" if smallest_retained else ""
-    )
+    known = {kind.replace("_", " "): count for kind, count in facts["counts"].items() if count}
+    counts = ", ".join(f"{count} {kind}" for kind, count in known.items())
+    smallest, dropped = facts["rank_gap"]
+    gap = f"the smallest singular value kept is {smallest:.3g}" if smallest else ""
     gap += f", the largest dropped {dropped:.1e}" if dropped else ""
     return f"{facts['rank']} base parameters ({counts}); proof: {facts['proof']}; {gap}"
 

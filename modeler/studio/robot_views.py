@@ -87,20 +87,11 @@ def robot_look(text: str, where: str = "robot.toml") -> RobotPreview:
         match = re.search(r": \[(symbols|limits)\], \"?(\w+)", str(error))
         named_entry = match.groups() if match else ()
         return RobotPreview(str(error), _locate_error(str(error), text, table), table, named_entry)
-    rows = [joint.name for joint in robot.joints]
-    return RobotPreview(
-        "",
-        None,
-        table,
-        (),
-        _find_row_names(table, rows),
-        robot.name,
-        robot.readings,
-        _describe_joints(robot),
-        tuple(joint.name for joint in robot.moving_joints if joint.actuated),
-        tuple(read_symbol_texts(text).items()),
-        content,
-    )
+    names = _find_row_names(table, [joint.name for joint in robot.joints])
+    everyone = tuple(joint.name for joint in robot.moving_joints if joint.actuated)
+    joints, symbols = _describe_joints(robot), tuple(read_symbol_texts(text).items())
+    about = names, robot.name, robot.readings, joints, everyone, symbols
+    return RobotPreview("", None, table, (), *about, content)
 
 
 def robot_page(text: str) -> str:
@@ -183,11 +174,9 @@ def _find_row_names(table: TableText | None, rows: list[str]) -> tuple[tuple[str
 def _describe_joints(robot: Robot) -> tuple[JointFacts, ...]:
     limits = read_limit_texts(robot.text)
     shown = [joint for joint in robot.moving_joints if joint.name not in robot.platform]
-    return tuple(
-        JointFacts(
-            joint.name, joint.actuated, joint.unit,
-            tuple(use.effect for use in robot.effects if robot.has_effect(use.effect, joint.name)),
-            limits.get(joint.name, ("", "", "", "")),
-        )
-        for joint in shown
-    )  # fmt: skip
+    facts = []
+    for joint in shown:
+        effects = [u.effect for u in robot.effects if robot.has_effect(u.effect, joint.name)]
+        own = limits.get(joint.name, ("", "", "", ""))
+        facts.append(JointFacts(joint.name, joint.actuated, joint.unit, tuple(effects), own))
+    return tuple(facts)

@@ -9,7 +9,7 @@ import hashlib
 import secrets
 import time
 from collections import OrderedDict
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Iterator, Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -260,6 +260,15 @@ class Studio:
         """Returns True for all windows but the first, and for locked or foreign projects."""
         return not self.hub.workspace.can_change or self.hub.studios[:1] != [self]
 
+    def check_writable(self) -> None:
+        """Refuses what changes things in a window that only reads.
+
+        Raises:
+            ModelerError: says why it only reads.
+        """
+        if self.is_read_only:
+            raise ModelerError(self.read_only_reason)
+
     @property
     def read_only_reason(self) -> str:
         """Returns the line that explains why the window only reads."""
@@ -276,42 +285,32 @@ class Studio:
         Returns:
             True if it is saved; else the line is shown.
         """
-        try:
-            if self.is_read_only:
-                raise ModelerError(self.read_only_reason)
+        with self.show_errors():
+            self.check_writable()
             self.hub.workspace.save(dataclasses.replace(self.project, **fields))
-        except ModelerError as error:
-            self.show_error(str(error))
-            return False
-        for studio in self.hub.studios:
-            if studio is not self or redraw:
-                studio.redraw()
-            studio.notify_listeners()
-        return True
+            for studio in self.hub.studios:
+                if studio is not self or redraw:
+                    studio.redraw()
+                studio.notify_listeners()
+            return True
+        return False
 
     def take_step(self, step: Step) -> bool:
         """Makes the model of a step the current one, in all windows; False if it cannot be."""
-        try:
-            if self.is_read_only:
-                raise ModelerError(self.read_only_reason)
+        with self.show_errors():
+            self.check_writable()
             self.hub.take_step(step)
-        except ModelerError as error:
-            self.show_error(str(error))
-            return False
-        self.hub.refresh()
-        return True
+            self.hub.refresh()
+            return True
+        return False
 
     async def run(self, task: Task, current: bool = True, keep: bool = True) -> Step | None:
         """Carries out a task; None if it failed, whose line is shown then. See `Hub.run`."""
-        if self.is_read_only:
-            self.show_error(self.read_only_reason)
-            return None
         self.show_error("")
-        try:
+        with self.show_errors():
+            self.check_writable()
             return await self.hub.run(task, current, keep)
-        except ModelerError as error:
-            self.show_error(str(error))
-            return None
+        return None
 
     async def ask_viewer(self, question: str, *arguments: Any, kind: str = "") -> Any:
         """Asks the viewer for a function of `studio.viewing`; see `Viewer.ask`.
@@ -387,6 +386,19 @@ class Studio:
         """Shows one error line in this window; "" removes it."""
         self.state["error"] = line
         self.notify_listeners()
+
+    @contextlib.contextmanager
+    def show_errors(self) -> Iterator[None]:
+        """Shows the line of an error that is raised inside, and goes on behind."""
+        try:
+            yield
+        except ModelerError as error:
+            self.show_error(str(error))
+
+    async def try_viewer(self, question: str, *arguments: Any, kind: str = "") -> Any:
+        """Asks the viewer and shows its error; returns None without an answer."""
+        with self.show_errors():
+            return await self.ask_viewer(question, *arguments, kind=kind)
 
     def open_screen(self, screen: str) -> None:
         """Shows another screen."""

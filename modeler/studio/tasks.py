@@ -1,9 +1,8 @@
 """What is done in a project: a verb with typed values, and the one command line that they make.
 
 A project may come from anybody, so no step holds a command line: `build_command_line` makes it,
-from the
-few options named here. No value can be read as an option, and files that a command writes are named
-by the number of its step.
+from the few options named here. No value can be read as an option, and files that a command writes
+are named by the number of its step.
 """
 
 import dataclasses
@@ -181,10 +180,13 @@ class Step:
         """Returns the path that it writes; "" for its result alone."""
         n, ending = self.number, self.task.like.rpartition(".")[2]
         places = {
-            "fit": f"models/{n}.json", "add": f"models/{n}.json", "page": f"pages/{n}.html",
-            "generate": f"taken/{n}_c", "excite": f"motions/{n}.csv", "simulate": self.task.file,
+            **dict.fromkeys(MAKING, f"models/{n}.json"),
+            "page": f"pages/{n}.html",
+            "generate": f"taken/{n}_c",
+            "excite": f"motions/{n}.csv",
+            "simulate": self.task.file,
             "export": f"taken/{n}{_SUFFIX.get(self.task.to, f'.{ending}')}",
-        }  # fmt: skip
+        }
         return places.get(self.verb, "")
 
     @property
@@ -222,9 +224,7 @@ def build_command_line(step: Step, steps: Sequence[Step] = ()) -> tuple[str, ...
     task = step.task
     check_task(task)
     if task.verb == "page":
-        of = next(
-            (earlier_step for earlier_step in steps if earlier_step.number == task.step), None
-        )
+        of = next((earlier for earlier in steps if earlier.number == task.step), None)
         if of is None or of.verb not in PAGED:
             raise DataError(f"step {task.step}: has no report page; choose a fit or a comparison")
         words = build_command_line(of)
@@ -233,26 +233,25 @@ def build_command_line(step: Step, steps: Sequence[Step] = ()) -> tuple[str, ...
         return (*words, "--report", step.output)
     model = f"models/{step.parent}.json"
     about: Mapping[str, tuple[str, ...]] = {
-        "add": (model, task.effect), "contest": tuple(f"models/{n}.json" for n in task.models),
-        "log": (task.file,), "new": (ROBOT,), "convert": (task.file,),
-    }  # fmt: skip
-    subject = about.get(task.verb, (step.robot_copy or model,))
-    robot = ("--robot", ROBOT) if task.robot else ()
-    force = ("--force",) if task.template else ()
-    out = ("--out", step.output) if step.output else ()
-    return (
-        _COMMANDS.get(task.verb, task.verb), *subject, *(part.command_word for part in task.logs),
-        *robot, *_yield_options(task), *FIXED.get(task.verb, ()), *force, *out,
-    )  # fmt: skip
+        "add": (model, task.effect),
+        "contest": tuple(f"models/{n}.json" for n in task.models),
+        "new": (ROBOT,),
+        **dict.fromkeys(("log", "convert"), (task.file,)),
+    }
+    line = [_COMMANDS.get(task.verb, task.verb)]
+    line += about.get(task.verb, (step.robot_copy or model,))
+    line += [part.command_word for part in task.logs]
+    line += ("--robot", ROBOT) if task.robot else ()
+    line += (*_yield_options(task), *FIXED.get(task.verb, ()))
+    line += ("--force",) if task.template else ()
+    line += ("--out", step.output) if step.output else ()
+    return tuple(line)
 
 
 def build_bookkeeping_words(step: Step) -> tuple[str, ...]:
     """Builds the words that a step gets when it is run, and are no part of it."""
-    return (
-        "--json",
-        step.result_file,
-        *(("--picture", step.pictures_file) if step.pictures_file else ()),
-    )
+    pictures = ("--picture", step.pictures_file) if step.pictures_file else ()
+    return ("--json", step.result_file, *pictures)
 
 
 def format_command(words: Sequence[str]) -> str:
@@ -293,7 +292,7 @@ FIELDS: Mapping[str, str] = {
     "derive": "",
     "simulate": "file seed",
     "fleet": "logs name mapping",
-}  # fmt: skip
+}
 """Fields that each verb has."""
 
 _PLACES = ("logs", "file", "effect", "models", "step", "robot")  # they are no options
@@ -320,9 +319,8 @@ def check_values(name: str, value: Any) -> None:
             check_values("file", item.file)
         elif isinstance(item, str) and item:
             if not _FORMS.get(name, _NAME).fullmatch(item):
-                raise DataError(
-                    f"{name}: got {item[:60]!r}; expected no option, and no file outside"
-                )
+                got = f"{name}: got {item[:60]!r}"
+                raise DataError(f"{got}; expected no option, and no file outside")
         elif item == "" and isinstance(value, tuple):
             raise DataError(f"{name}: got an empty text; expected a value, or nothing")
         elif isinstance(item, float | int) and not 0 <= item < 1e9:

@@ -131,10 +131,9 @@ class Timeline(
 
     def __init__(self, name: str, ends: tuple[float, float], active: bool = True) -> None:
         super().__init__()
-        self._props |= {
-            "name": name, "start": ends[0], "end": ends[1], "active": active, "frame": "",
-            "label": f"time of {name}, s", "spans": [], "marks": [], "brush": None,
-        }  # fmt: skip
+        self._props |= {"name": name, "start": ends[0], "end": ends[1], "active": active}
+        self._props |= {"label": f"time of {name}, s", "frame": "", "spans": [], "marks": []}
+        self._props["brush"] = None
 
     @property
     def frame(self) -> str:
@@ -185,6 +184,28 @@ class Timeline(
     def toggle_play(self, speed: float) -> None:
         """Starts the cursor, or stops it."""
         self.run_method("toggle", speed)
+
+
+def add_player(
+    name: str, ends: tuple[float, float], speeds: Sequence[float] = (0.1, 0.5, 1.0, 2.0, 5.0)
+) -> Timeline:
+    """Adds a timeline with a button that plays it, and the choice of its speed.
+
+    Args:
+        name: of its time.
+        ends: of it, s.
+        speeds: times real time.
+    """
+    with ui.row().classes("w-full items-center no-wrap"):
+        play = ui.button(icon="play_arrow").props("dense round unelevated aria-label=play")
+        menu = {speed: f"{speed:g} x" for speed in speeds}
+        speed = ui.select(menu, value=1.0).props("dense borderless aria-label=speed")
+        with ui.element("div").classes("col"):
+            line = Timeline(name, ends)
+    faces = {True: "icon=pause aria-label=pause", False: "icon=play_arrow aria-label=play"}
+    line.on("playing", lambda event: play.props(faces[bool(event.args)]))
+    play.on_click(lambda: line.toggle_play(speed.value))
+    return line
 
 
 def draw_legend() -> None:

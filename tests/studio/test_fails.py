@@ -61,6 +61,6 @@ def one_zoom(page: Any) -> None:
     page.get_by_role("button", name="play").click()
     page.wait_for_function("document.querySelector('.studio-cursor:not([hidden])')")
     until(frame, f"modelerShow.u.some((u, k) => Math.abs(u - {before}[k]) > 0.02)")
-    page.get_by_role("button", name="play").click()
+    page.get_by_role("button", name="pause").click()
     frame.evaluate("tell('joint', { name: '3' })")  # what a click on it does
     until(frame, "[...modelerShow.view.lit].join() === '2'")

@@ -46,8 +46,8 @@ def test_a_fit_is_judged_joint_by_joint(arm: Path) -> None:
         assert text.count("\ngood\n") == 2 and text.count("not essential") >= 1
         hints = [one.props["title"] for one in page.every() if "title" in one.props]
         assert "ZZ2R = ZZ2 + Ia2 + D3**2*M3" in hints
-        page.change("estimator", "robust")
-        page.change("position filter [Hz]", 30.0)
+        page.change("method", "robust")
+        page.change("cutoff [Hz]", 30.0)
         page.change("effects, in place of the robot file's", ["viscous"])
         (line,) = [one for one in page.texts().splitlines() if "--method" in one]
         assert "--method robust --cutoff 30 --effects viscous --out models/8.json" in line
@@ -218,7 +218,7 @@ def test_days_and_models_are_compared_and_drift_is_looked_for(arm: Path) -> None
         await page.sees("File name pattern")
         page.change("File name pattern", "{period}.parquet")
         await page.click("Detect drift")
-        await page.sees("What drifted, leapt or is apart")
+        await page.sees("Drift, steps and outliers")
         await page.sees("nothing drifts")
 
     story(arm, told, "/days")
