@@ -102,7 +102,7 @@ class ModelOnLogs:
             float(time.min()),
             float(time.max()),
             tuple(map(_classify_remainder, items)),
-            tuple(f"Joint {j}: not judged: {why}" for j, why in self.comparison.unjudged),
+            tuple(f"Joint {j}: not judged: {why}" for j, why in self.comparison.excluded_joints),
         )
 
     def list_channels(self) -> list[tuple[str, str]]:

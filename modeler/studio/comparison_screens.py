@@ -404,7 +404,7 @@ def _draw_model_comparison(studio: Studio, step: Step) -> None:
         for joint in model_entries[0]["joints"]:
             every = [each["joints"][joint] for each in model_entries]
             cells = [
-                f"{format_percent(one['relative_error'])}{' *' * one['best']}" for one in every
+                f"{format_percent(one['relative_error'])}{' *' * one['is_best']}" for one in every
             ]
             rows.append([f"joint {joint}", *cells])
         draw_table(["", *(each["model"] for each in model_entries)], rows)
@@ -443,7 +443,7 @@ def _draw_fleet(studio: Studio, step: Step) -> None:
     with add_card("Drift, steps and outliers"):
         ui.label(result["verdict"])
         if result["findings"]:
-            names = ("machine", "parameter", "shape", "from", "to")
+            names = ("machine", "parameter", "shape", "begin", "end")
             rows = [
                 (
                     *map(one.get, names),
@@ -454,10 +454,10 @@ def _draw_fleet(studio: Studio, step: Step) -> None:
             ]
             heads = ("machine", "what", "how", "from", "to", "change", "certainty")
             draw_table(heads, rows)
-        left = [f"{one['log']} left out: {one['why']}" for one in result["left_out"]]
+        left = [f"{one['log']} left out: {one['reason']}" for one in result["skipped_logs"]]
         for line in [f"{one['sentence']}." for one in result["findings"]]:
             ui.label(line)
-        for line in (*result["doubts"], *result["notes"], *left):
+        for line in (*result["warnings"], *result["notes"], *left):
             draw_note(line)
     _draw_pictures(studio, step)
 

@@ -86,10 +86,12 @@ async def _draw_diagnosis(studio: Studio, step: Step) -> None:
             every_one = partial(commands.add, project, "auto", None)
             then = partial(_accept_step, studio)
             elements.add_run_button(studio, "Add all that is named", every_one, then, small=True)
-        others = [(_describe_place(one), format_percent(one["gain"])) for one in result["rivals"]]
+        others = [
+            (_describe_place(one), format_percent(one["gain"])) for one in result["alternatives"]
+        ]
         hidden = [
-            (_describe_place(one), _describe_effect(one["effect"], "look_alikes"))
-            for one in result["blind_spots"]
+            (_describe_place(one), _describe_effect(one["effect"], "confounders"))
+            for one in result["undetectable"]
         ]
         heads = "effect", "of the residual's variance"
         elements.draw_folded("Alternatives that explain less", others, *heads)
@@ -111,7 +113,7 @@ async def _draw_card(
     where = f"joint {joint}" if joint else "the whole robot"
     with elements.add_card(f"{_describe_effect(effect)}: {where}"):
         with ui.row().classes("items-center"):
-            elements.draw_light(which, f"{status}: {one['doubt']}" if one["doubt"] else status)
+            elements.draw_light(which, f"{status}: {one['warning']}" if one["warning"] else status)
             draw_note(f"id {effect}")
             if refines:
                 draw_note("refines a term of the model")
@@ -249,7 +251,7 @@ async def _draw_preview(studio: Studio, effect: str, joint: str | None) -> None:
 
 def _draw_remainder(joints: Mapping[str, Mapping[str, float | None]], kind: str) -> None:
     """Where nothing is missing: what is left of each joint's torque."""
-    names = ("error_before", "explained", "systematic", "noise")
+    names = ("error_before", "explained_share", "systematic_share", "noise_share")
     rows = [(j, *(format_percent(shares[n]) for n in names)) for j, shares in joints.items()]
     elements.draw_table(("joint", kind, "explained", "of physics", "noise (of the variance)"), rows)
 

@@ -102,7 +102,7 @@ def _draw_advanced(chosen: dict[str, Any], renew: Callable[[], None]) -> None:
         about = abouts[chosen.get("method") or FitOptions.method]
         ui.label(about.title).classes("studio-part")
         facts = {"what it solves": about.law, "source": about.source}
-        facts |= {"not suitable": about.avoid, "of the motion": about.motion}
+        facts |= {"not suitable": about.limitations, "of the motion": about.motion}
         elements.draw_table(("", ""), list(facts.items()))
 
     with ui.expansion("Advanced: estimator, band, effects").classes("w-full studio-folded"):
@@ -229,10 +229,14 @@ def _draw_choices(fit: Mapping[str, Any]) -> None:
     processing, bands = fit["processing"], fit["bands"] or {"reasons": [], "noise": []}
     cutoffs = {"position filter": "position_cutoff", "parallel filter": "parallel_cutoff"}
     with elements.add_card("How the logs were processed, and why"):
-        elements.draw_lines(bands["chosen_by"])
+        elements.draw_lines(bands["reasons"])
         rows = []
         for title, name in cutoffs.items():
-            why = "chosen from the logs" if name in processing["chosen"] else "as it was requested"
+            why = (
+                "chosen from the logs"
+                if name in processing["automatic_cutoffs"]
+                else "as it was requested"
+            )
             rows.append((title, f"{format_number(processing[name])} Hz", why))
         counts, condition = f"{fit['samples']}, {fit['rows']}", fit["condition_scaled"]
         rows.append(("samples, rows", counts, "what the filters leave to know"))
@@ -240,6 +244,6 @@ def _draw_choices(fit: Mapping[str, Any]) -> None:
         rows.append(("condition number", format_number(condition), scaled))
         for noise in bands["noise"]:
             level = f"{format_number(noise['deviation'])} {noise['unit']}"
-            why = f"hides the motion above {format_number(noise['hides_above_hz'])} Hz"
+            why = f"hides the motion above {format_number(noise['noise_crossover_hz'])} Hz"
             rows.append((f"noise of position {noise['joint']}", level, why))
         elements.draw_table(("", "", ""), rows)

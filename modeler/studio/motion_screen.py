@@ -167,8 +167,8 @@ def _describe_separation(separation: Mapping[str, Any] | None) -> list[str]:
     if not separation:
         return []
     return [
-        f"{name}: {format_percent(each['left'])} of its torque is explained by neither the model "
-        f"nor {other}; best of the random motions {format_percent(each['left_random'])}; that part "
+        f"{name}: {format_percent(each['unexplained_share'])} of its torque is explained by neither the model "
+        f"nor {other}; best of the random motions {format_percent(each['random_share'])}; that part "
         f"is {each['gain']:.3g} times as large"
         for (name, each), other in zip(separation.items(), [*separation][::-1], strict=True)
     ]

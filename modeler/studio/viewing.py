@@ -147,8 +147,8 @@ def log_guess(place: str, robot: str = "") -> LogGuess:
         inspection, streams = guess.inspection, guess.inspection.streams
         count = 1 if inspection.positions is None else len(inspection.positions.names)
         joints = robot_joints(robot) or build_default_joints(count)
-        choices, ranged = parse_guess(inspection.suggested, joints, guess.units)
-        clocks = [part for part in streams if part.clock]
+        choices, ranged = parse_guess(inspection.suggested_map, joints, guess.units)
+        clocks = [part for part in streams if part.is_clock]
         alike = [part for part in streams if clocks and part.kind == clocks[0].kind]
         topic = clocks[0].name if len(alike) > 1 else ""
         doubts = () if guess.sampled else inspection.warnings
