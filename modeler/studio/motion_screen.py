@@ -166,12 +166,14 @@ def _describe_separation(separation: Mapping[str, Any] | None) -> list[str]:
     """How well two effects are distinguished along the motion."""
     if not separation:
         return []
-    return [
-        f"{name}: {format_percent(each['unexplained_share'])} of its torque is explained by neither the model "
-        f"nor {other}; best of the random motions {format_percent(each['random_share'])}; that part "
-        f"is {each['gain']:.3g} times as large"
-        for (name, each), other in zip(separation.items(), [*separation][::-1], strict=True)
-    ]
+    lines = []
+    for (name, each), other in zip(separation.items(), [*separation][::-1], strict=True):
+        here, there = (format_percent(each[k]) for k in ("unexplained_share", "random_share"))
+        lines.append(
+            f"{name}: {here} of its torque is explained by neither the model nor {other}; best of "
+            f"the random motions {there}; that part is {each['gain']:.3g} times as large"
+        )
+    return lines
 
 
 async def _draw_motion(studio: Studio, step: Step, look: "MotionPreview") -> None:
