@@ -36,7 +36,7 @@ _MEASURED = Style(BLACK, width=1.1)
 _OF_MODELS = (ORANGE, BLUE, GREEN, PINK, VERMILLION, SKY)
 _SHARES = (
     "Share of each joint's residual variance, in percent, that a curve over that channel predicts "
-    "on motion not used to draw it; empty: too few samples to tell. Coordinates move together: "
+    "on motion not used to draw it; empty: too few samples. Coordinates move together: "
     "shares overlap. Choose a cell to look at it."
 )
 
@@ -176,7 +176,7 @@ class ModelOnLogs:
 
 
 def _classify_remainder(item: validation.JointComparison) -> str:
-    """What is left of a joint, which too few samples may not tell; a large error is no noise."""
+    """What is left of a joint, which too few samples may not show; a large error is no noise."""
     kind = validation.classify_residual(item)
     is_determined = kind != "other" or item.structure is not None or validation.is_too_large(item)
     return kind if is_determined else "untold"

@@ -283,8 +283,9 @@ def _draw_navigation(studio: Studio) -> None:
         ui.label(studio.folder.name).classes("studio-title")
         buttons = {}
         for number, (name, (title, _)) in enumerate(JOBS.items(), start=1):
-            act, props = partial(studio.open_screen, name), f"flat align=left accesskey={number}"
-            buttons[name] = add_button(f"{number}  {title}", act, props)
+            act = partial(studio.open_screen, name)
+            button = add_button(f"{number}  {title}", act, "flat align=left")
+            buttons[name] = button.props(f"accesskey={number}")
 
         def update_marks() -> None:
             done = _find_done_jobs(studio.project)

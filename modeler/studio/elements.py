@@ -42,7 +42,7 @@ def draw_error(error: object) -> None:
 
 def add_button(title: str, act: Callable[..., object], props: str = "", **icon: str) -> ui.button:
     """Adds a button whose title is written as it is."""
-    return ui.button(title, on_click=act, **icon).props(f"no-caps {props}")
+    return ui.button(title, on_click=act, **icon).props("no-caps").props(props)
 
 
 def add_card(title: str) -> Element:
@@ -99,8 +99,8 @@ def add_run_button(
                     on_done(step)
 
     with ui.row().classes("items-center no-wrap w-full"):
-        size = "outline dense" if small else "size=lg"
-        disable_while_busy(studio, add_button(title, run_task, f"unelevated {size}"))
+        button = add_button(title, run_task, "unelevated")
+        disable_while_busy(studio, button.props("outline dense" if small else "size=lg"))
         line = draw_command_line("")
 
     def update_line() -> None:

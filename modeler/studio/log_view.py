@@ -160,7 +160,7 @@ class MappingTable:
         with cell:
             menu = ui.select(names, value=one and one.column, with_input=True)
             menu.on_value_change(lambda event: self._assign_column(quantity, event.value))
-            menu.props(f"dense options-dense {'clearable' * (quantity != 'time')}")
+            menu.props("dense options-dense").props("" if quantity == "time" else "clearable")
             menu.props["aria-label"] = f"column of {quantity}"
             menu.classes("mapping-column")
             if one is None:
@@ -534,7 +534,7 @@ def _read_sentences() -> dict[str, str]:
 
 
 def _add_small_button(title: str, act: Callable[..., Any], face: str = "flat") -> ui.button:
-    return add_button(title, act, f"dense {face}").classes("no-wrap")
+    return add_button(title, act, "dense").props(face).classes("no-wrap")
 
 
 def _get_ends(stretch: TimeRange | None) -> tuple[float, float] | None:

@@ -260,7 +260,7 @@ class _RobotEditor:
             self.changing = []
             for what, key, back in (("undo", "Z", True), ("redo", "Y", False)):
                 button = ui.button(icon=what, on_click=partial(self.move_in_history, back))
-                button.props(f"flat round dense aria-label='{what} the edit'")
+                button.props("flat round dense").props["aria-label"] = f"{what} the edit"
                 self.changing.append(button.tooltip(f"{what} (Ctrl+{key})"))
             self.changing.append(add_button("Another robot or table", ways.open, "outline"))
         self.error = ui.label().classes("studio-error robot-error").props("role=alert")

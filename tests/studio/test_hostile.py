@@ -307,8 +307,10 @@ def test_names_are_no_part_of_a_text_of_attributes() -> None:
     found = set()
     for path in Path(studio.__file__).parent.glob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "props":
-                for part in (part for word in node.args for part in ast.walk(word)):
+            called = isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2]
+            if isinstance(node, ast.Call) and called in ("props", "add_button"):
+                words = node.args[2:] if called == "add_button" else node.args
+                for part in (part for word in words for part in ast.walk(word)):
                     if isinstance(part, ast.FormattedValue):
                         found.add(ast.unparse(part.value))
                     assert not isinstance(part, ast.BinOp | ast.Mod) or "alone" in ast.unparse(part)
