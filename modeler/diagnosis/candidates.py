@@ -280,8 +280,9 @@ def compute_scales(
 # The columns of a candidate over the samples of a segment: the catalogue's equations in numpy.
 
 
-FUNCTIONS = {f.__name__: f for f in (np.sin, np.cos, np.tan, np.sqrt, np.exp, np.sign, np.tanh)}
-FUNCTIONS["abs"] = np.abs
+FUNCTIONS: dict[str, np.ufunc] = {
+    name: getattr(np, name) for name in ("sin", "cos", "tan", "sqrt", "exp", "sign", "tanh", "abs")
+}
 
 
 def evaluate_equations(

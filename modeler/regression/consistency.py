@@ -321,8 +321,8 @@ def check_derivatives(
                 worst = int(np.argmax(np.where(np.concatenate(flags), error, 0.0)))
                 time = np.concatenate([part.time for part in windows])
                 names, samples = (f"{column}{joint}", f"{lower}{joint}"), sum(map(np.sum, masks))
-                numbers = int(samples), limit, float(error[worst]), float(time[worst])
-                contradictions.append(Contradiction(*names, *numbers))
+                largest, at = float(error[worst]), float(time[worst])
+                contradictions.append(Contradiction(*names, int(samples), limit, largest, at))
     return DerivativeCheck(tuple(bad), tuple(contradictions), tuple(late))
 
 
