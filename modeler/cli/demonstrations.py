@@ -70,7 +70,7 @@ def _run_story(story: Story, out: Path, args: argparse.Namespace) -> Json:
     print_result(f"1. derive and emit C into {out / 'c'}")
     with show_activity("deriving"):
         derivation = derive(robot)
-        emitted = generate(derivation, out / "c", args.force)
+        emitted = generate(derivation, out / "c", force=args.force)
         compiled = compile_model(emitted)
     kinds = ", ".join(f"{count} {kind}" for kind, count in derivation.base.count_by_kind().items())
     print_result(

@@ -141,7 +141,7 @@ def format_fitted_texts(
     places = layout.name_enumerators(spec.prefix, "beta", [base.name for base in spec.base])
     lines, literal = list[str](), OF_PRECISION[spec.precision].format_literal
     for parameter, place in zip(fitted.parameters, places, strict=True):
-        sure = "set aside: the logs do not tell it"
+        sure = "set aside: the logs do not identify it"
         if parameter.sigma is not None:
             sure = f"sigma {parameter.sigma:.2g}{'' if parameter.essential else ', not essential'}"
         comma = "," if len(lines) + 1 < len(fitted.parameters) else " "

@@ -66,7 +66,7 @@ def check_together(values: Mapping[str, Any], rules: Iterable[Rule]) -> None:
             if not present & {*alternatives}:
                 others = " or ".join(f"{{--{other}}}" for other in alternatives)
                 raise OptionError(
-                    f"{{--{name}}}: is of {others}; add that, or leave {{--{name}}} out"
+                    f"{{--{name}}}: needs {others}; give both, or leave {{--{name}}} out"
                 )
         for other in excludes:
             if other in present:

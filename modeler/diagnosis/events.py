@@ -338,14 +338,14 @@ def _detect_faint_backlash(search: Search, least: float, knocks: bool) -> Findin
 
 
 def _build_backlash_finding(
-    search: Search, bursting: Sequence[int], text: str, objection: str = ""
+    search: Search, bursting: Sequence[int], text: str, caveat: str = ""
 ) -> Finding:
     """Play on the first of some joints; any of the others may be the one."""
     (effect,), names, first = _find_impact_effects(search), search.end.joint_names, bursting[0]
     others = tuple((effect.id, names[k]) for k in bursting if k != first)
     joint, text = names[first], f"joint {names[first]}: {text}"
     errors: tuple[float, float] = (math.nan, math.nan)
-    return Finding(effect.id, joint, *errors, {}, {}, {}, others, text, None, False, objection)
+    return Finding(effect.id, joint, *errors, {}, {}, {}, others, text, None, False, caveat)
 
 
 def _score_backlash(

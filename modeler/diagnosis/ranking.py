@@ -5,8 +5,10 @@ The rows are there as small matrices by block of time.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from itertools import pairwise
+from typing import ClassVar
+from weakref import WeakSet
 
 import numpy as np
 
@@ -78,21 +80,27 @@ class GramBlocks(ShortRepr):
         return tuple(y - np.einsum("ij,ij->i", columns, beta) for y, columns, beta in rows)
 
 
-@dataclass(frozen=True, eq=False)
-class WhitenedColumns(ShortRepr):
+class WhitenedColumns:
     """The columns of a base: W (rows_j, c) by joint, turn (c, r), sigma (J,).
 
     Many bases are there at a time: only the one that was asked last keeps its columns.
     """
 
-    W: Sequence[np.ndarray]
-    turn: np.ndarray
-    sigma: np.ndarray
+    _last: ClassVar["WeakSet[WhitenedColumns]"] = WeakSet()
 
-    @lru_cache(maxsize=1)  # noqa: B019  # of the last base: they fill memory
+    def __init__(self, W: Sequence[np.ndarray], turn: np.ndarray, sigma: np.ndarray) -> None:
+        self._source, self._columns = (W, turn, sigma), tuple[np.ndarray, ...]()
+
     def compute_columns(self) -> tuple[np.ndarray, ...]:
         """Computes the columns, (rows_j, r) by joint."""
-        return tuple(w @ (self.turn / s) for w, s in zip(self.W, self.sigma, strict=True))
+        if not self._columns:
+            for other in list(self._last):
+                other._columns = ()
+            self._last.clear()
+            self._last.add(self)
+            W, turn, sigma = self._source
+            self._columns = tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True))
+        return self._columns
 
 
 @dataclass(frozen=True, eq=False)

@@ -154,7 +154,7 @@ _NONE: Mapping[str, float] = {}
 def explain_weak_evidence(
     pick: Candidate,
     errors: tuple[float, float],
-    objection: str = "",
+    caveat: str = "",
     sigmas: Mapping[str, float] = _NONE,
     closed: float | None = None,
     checks: Sequence[CrossCheck] = (),
@@ -167,7 +167,7 @@ def explain_weak_evidence(
     Args:
         pick: the effect, with its shapes.
         errors: relative errors of its joints without and with it, on unseen motion.
-        objection: why its values cannot be; a drive gain may be in another unit.
+        caveat: why its values cannot be; a drive gain may be in another unit.
         sigmas: standard deviations of its shapes, by name, where they are known.
         closed: share of what is systematic that it explains.
         checks: what others say of it.
@@ -177,7 +177,7 @@ def explain_weak_evidence(
     """
     before, after = errors
     worst = max([after, *left])
-    reasons = [objection] if objection and not is_gain(pick) else []
+    reasons = [caveat] if caveat and not is_gain(pick) else []
     if worst > THRESHOLDS.max_joint_error:
         left_error = f"with it the error is {format_percent(worst)} still"
         reasons.append(f"{left_error}, so the fit does not determine a joint")
@@ -196,7 +196,7 @@ def explain_weak_evidence(
     kinds = sorted({tie.effect.id for tie in ties if tie.effect.family != pick.effect.family})
     if kinds and not is_gain(pick):
         reasons.append(f"it may as well be of another kind: {', '.join(kinds)}")
-    unit = bool(objection) and is_gain(pick)  # it bends what every look weighs the joints by
+    unit = bool(caveat) and is_gain(pick)  # it bends what every look weighs the joints by
     for check in () if unit else checks:
         if not check.agrees and check.leading_effect is not None:
             reasons.append(f"{check.leading_effect[0]} explains its joint better ({check.label})")

@@ -143,7 +143,7 @@ def test_physical_values_are_those_of_the_command(tmp_path: Path, model) -> None
     known = ",".join(f"{letter}=0.1" for letter in found.find_known_sets().easiest_sets[0])
     values = found.compute_values(known)
     assert found.derive_formulas(",".join(found.find_known_sets().easiest_sets[0])).steps
-    with pytest.raises(DataError, match="expected a model"):
+    with pytest.raises(DataError, match="expected names alone"):
         api.physical(api.load("two-link")).compute_values(known)
     api.save(model, tmp_path / "m.json")
     words = ["--known", known, "--json", str(tmp_path / "p.json")]

@@ -34,11 +34,11 @@ def test_a_message_names_options_as_its_skin_writes_them() -> None:
 
 def test_options_that_need_others_are_refused_alike(capsys) -> None:
     with pytest.raises(
-        OptionError, match=r"^window: is of free_run; add that, or leave window out"
+        OptionError, match=r"^window: needs free_run; give both, or leave window out"
     ):
         CompareOptions(window=2.0)
     told = refusal(capsys, "compare", "m.json", "a.csv", "--window", "2")
-    assert "modeler: --window: is of --free-run; add that, or leave --window out" in told
+    assert "modeler: --window: needs --free-run; give both, or leave --window out" in told
 
 
 def test_what_is_empty_or_false_is_not_given() -> None:

@@ -189,8 +189,8 @@ def test_nothing_is_proposed_where_nothing_is_hidden(case: Case) -> None:
 
 def test_add_wants_discover(run: Run, tmp_path: Path) -> None:
     for words, told in (
-        (["--add", "--out", tmp_path / "m2.json"], "adds what --discover finds; give both, or ne"),
-        (["--discover", "--add"], "--add, --out MODEL2: got one of them; give both, or neither"),
+        (["--add", "--out", tmp_path / "m2.json"], "--add: needs --discover; give both"),
+        (["--discover", "--add"], "--add: needs --out; give both, or leave --add out"),
     ):
         status, _, err = run("diagnose", "m.json", "log.csv", *words)
         assert status == 1 and told in err

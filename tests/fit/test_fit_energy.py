@@ -96,15 +96,15 @@ def test_the_result_says_how_it_compares_with_the_torque_model(arm, fitted):
     ]  # fmt: skip
     assert torque.condition_scaled < energy.condition_scaled
     assert torque.torque_sigma < energy.torque_sigma and torque.rows > energy.rows
-    (first, *_) = report.format_sentences()
-    assert report.ratio > 1.2 and "times the uncertainty of the torque model" in first
+    (first, *_) = report.sentences
+    assert report.uncertainty_ratio > 1.2 and "times the uncertainty of the torque model" in first
     assert "(torque model: " in first
     assert energy.imbalance < 0.1 * coarse.imbalance and energy.bias < coarse.bias
     assert fit.result.relative_error == pytest.approx(energy.torque_error)
     text = "\n".join(fit.result.format_lines())
     assert "energy, Simpson" in text and "integrals by Simpson's rule" in text
     alike = dataclasses.replace(energy, joint_sigma=torque.joint_sigma)
-    like = dataclasses.replace(report, figures=(torque, alike, coarse)).format_sentences()[0]
+    like = dataclasses.replace(report, figures=(torque, alike, coarse)).sentences[0]
     assert "the energy model has at most " in like
 
 
@@ -120,10 +120,10 @@ def test_a_quiet_joint_beside_a_loud_one_is_not_overlooked(arm):
     ]
     torque, energy, _ = report.figures
     name = seen.joints[1].name
-    assert report.ratio == energy.joint_sigma[name] / torque.joint_sigma[name]
-    assert report.ratio > 5 * energy.torque_sigma / torque.torque_sigma
-    assert 0.2 < report.ratio / (missed[1] / missed[0]) < 5  # the truth says the same
-    assert f"the torques of joint {name} " in report.format_sentences()[0]
+    assert report.uncertainty_ratio == energy.joint_sigma[name] / torque.joint_sigma[name]
+    assert report.uncertainty_ratio > 5 * energy.torque_sigma / torque.torque_sigma
+    assert 0.2 < report.uncertainty_ratio / (missed[1] / missed[0]) < 5  # the truth says the same
+    assert f"the torques of joint {name} " in report.sentences[0]
 
 
 @pytest.mark.rotating("long tests of fit")
@@ -143,9 +143,7 @@ def test_a_log_too_slow_for_the_rule_is_told(arm):
     log = exact_log(arm, some_beta(arm), seconds=60, rate=12)
     seen = observe(arm, [log])
     report = identify_energy(arm, seen).result.energy
-    assert report.figures[1].bias > 0.5 and report.format_sentences()[1].endswith(
-        "or move more slowly"
-    )
+    assert report.figures[1].bias > 0.5 and report.sentences[1].endswith("or move more slowly")
 
 
 def test_it_is_saved_and_read_and_judged_by_its_own_errors(arm, fitted):

@@ -109,11 +109,11 @@ def test_parameters_without_effect_are_not_essential(method):
         data = compress_rows(W, measured(np.random.default_rng(100 + seed)), joint, 2, NAMES)
         full = solve_least_squares(data, method)
         essential = select_essential_parameters(data, full, method)
-        dropped += essential.dropped_parameters
+        dropped += essential.dropped
         kept_always += {"A", "C"} <= set(essential.names)
         before, after = essential.compute_errors(data, full.beta)
         assert after >= before - 1e-3
-        assert essential.f_statistic < essential.f_limit
+        assert essential.ratio < essential.limit
         np.testing.assert_array_equal(essential.beta != 0.0, np.isin(NAMES, essential.names))
     assert kept_always == 30
     # 95 % test: 60 chances, about 3 false alarms.

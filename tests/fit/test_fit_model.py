@@ -181,7 +181,7 @@ DAMAGE = {
                    "a sum of parameters a negative variance"),
     "still": ([(("covariance", 1, 1), 0.0), (SIGMA, 0.0)], "varies with others, but its variance"),
     "logs": ([(("logs",), [{"path": "x"}])], "logs.0..name is missing"),
-    "log content": ([(("logs", 0, "content"), 3)], "expected text"),
+    "log content": ([(("logs", 0, "checksum"), 3)], "expected text"),
     "log times": ([(("logs", 1, "end"), "x")], "expected a number"),
     "history": ([(("history",), [{"effect": "x"}])], "joint is missing"),
     "fit": ([(("fit", "parameters"),)], "the fit is damaged"),

@@ -57,7 +57,7 @@ def fitted(robot):
 def test_it_is_the_fit_of_the_smaller_table(fitted):
     seen, fit = fitted
     reduced = fit.essential
-    assert 0 < len(reduced.dropped) <= 5
+    assert 0 < len(reduced.dropped_parameters) <= 5
     names = [p.name for p in reduced.parameters]
     assert names == [p.name for p in fit.parameters if p.essential]
     W = seen.W[:, [seen.names.index(name) for name in names]]
@@ -69,7 +69,7 @@ def test_it_is_the_fit_of_the_smaller_table(fitted):
     assert reduced.condition_number == pytest.approx(np.linalg.cond(W), rel=1e-8)
     assert reduced.condition_number < fit.condition_number
     assert reduced.relative_error == fit.essential_error
-    assert reduced.ratio < reduced.limit
+    assert reduced.f_statistic < reduced.f_limit
 
 
 @pytest.mark.rotating("long tests of fit")
@@ -190,9 +190,9 @@ def test_known_sets_are_found_among_columns_that_are_alike():
         essential = select_essential_parameters(
             data, solve_least_squares(data, "ordinary"), "ordinary"
         )
-        found += set(essential.dropped_parameters) == none
+        found += set(essential.dropped) == none
         kept = [data.names.index(name) for name in essential.names]
-        out = [data.names.index(name) for name in essential.dropped_parameters]
+        out = [data.names.index(name) for name in essential.dropped]
         better += any(some_exchange_is_better(data, kept, out))
     assert found >= 12 and better == 0
 

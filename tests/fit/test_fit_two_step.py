@@ -8,8 +8,8 @@ import pytest
 from modeler.cli import main
 from modeler.core.errors import DataError
 from modeler.estimation.identify import identify
+from modeler.estimation.single_joint import JointDirections
 from modeler.estimation.two_step import (
-    JointDirections,
     build_inertia_rows,
     estimate_two_steps,
     identify_in_two_steps,
