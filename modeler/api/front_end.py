@@ -39,7 +39,6 @@ from modeler.core.files import (
     read_text as read_text,
     write_atomically as write_atomically,
 )
-from modeler.core.fit_options import FitOptions as FitOptions
 from modeler.core.jobs import (
     block_interrupts as block_interrupts,
     exit_with_parent as exit_with_parent,
@@ -50,6 +49,7 @@ from modeler.core.json import (
     parse_toml as parse_toml,
 )
 from modeler.core.manifest import JointSpec as JointSpec
+from modeler.core.options import FitOptions as FitOptions
 from modeler.core.table import (
     format_error_pair as format_error_pair,
     format_percent as format_percent,
