@@ -110,7 +110,8 @@ def _draw_advanced(chosen: dict[str, Any], renew: Callable[[], None]) -> None:
             for option in FIT_OPTIONS:
                 titles = {id: about.title for id, about in abouts.items()}
                 field = _add_option(option, titles if option.name == "method" else {})
-                field.classes("min-w-48").tooltip(option.metadata["help"])
+                about = option.metadata["help"].replace("%(default)s", str(option.default))
+                field.classes("min-w-48").tooltip(about)
                 field.value = chosen.get(option.name, field.value)
                 field.on_value_change(lambda e, to=option.name: store_choice(to, e.value))
             label = "effects, in place of the robot file's"
