@@ -6,19 +6,313 @@ that a value is computed shortly before it is used. A value used once is written
 that uses it, as long as the line stays readable.
 """
 
+import dataclasses
 import re
+import textwrap
+import tomllib
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cache
+from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
-from modeler.codegen.naming import Letters, Naming
-from modeler.codegen.targets import DOUBLE, FUNCTIONS, Target
 from modeler.codegen.thresholds import THRESHOLDS
+from modeler.core.choices import Precision
 from modeler.core.errors import EmitError
 from modeler.core.expression import Law
 from modeler.derivation import Expr, Graph, Label
+
+# What emitted arithmetic is made of: number type, literals, functions.
+#
+# One emitter writes a function for doubles, for floats, and for a vector whose lanes are samples.
+# Templates are given the words of the target of their module (`words`). The hand-written runtime is
+# the same text for both precisions: there `modeler_real.h` says what a number is, and names the
+# external functions of floats `modelerf_...`, since a program may hold robots of both kinds.
+
+
+FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp", "tanh", "abs", "pow", "sign")
+"""Functions of the graph: those of math.h, and the sign of modeler_runtime.h."""
+
+_MATH = {name: name for name in FUNCTIONS} | {"abs": "fabs"}
+
+
+@dataclass(frozen=True)
+class Target:
+    """How a value is written.
+
+    Attributes:
+        number: C type of a value that depends on the motion.
+        suffix: of a literal.
+        precision: "double" or "single", for messages.
+        exact: integers up to here are exact, so a quotient of two such literals is rounded once.
+        smallest: least positive number with all its digits.
+        largest: greatest finite number.
+        functions: {function of the graph: C name}, all of `FUNCTIONS`.
+        sincos: C name of the function that gives sine and cosine at once.
+        smooth_sign: C name of the sign that turns over a width.
+        law: call of a law that was learned, of `{name}`, `{axes}`, `{along}` (which derivative,
+            "", "x" or "y") and `{arguments}`.
+        spread: C text of a value of all lanes that are alike, of `{0}`, one number.
+        constant: target of values that do not depend on the motion; None: this one.
+        point: True if a literal has a point before its exponent, 1.0E-05.
+        temporary: statement that names a value.
+        stored: statement that writes an output.
+        turn: statements that make sine and cosine of an angle.
+        remark: comment.
+    """
+
+    number: str
+    suffix: str
+    precision: Precision
+    exact: int
+    smallest: Fraction
+    largest: Fraction
+    functions: Mapping[str, str]
+    sincos: str
+    smooth_sign: str
+    law: str = "modeler_law_{axes}{along}(&{name}, {arguments})"
+    spread: str = "{0}"
+    constant: "Target | None" = None
+    point: bool = False
+    temporary: str = "const {number} {name} = {text};"
+    stored: str = "{place} = {text};"
+    turn: tuple[str, str] = ("{number} s{name}, c{name};", "{sincos}({angle}, &s{name}, &c{name});")
+    remark: str = "/* {} */"
+
+    @property
+    def constant_target(self) -> "Target":
+        """Returns the target of constants of the geometry."""
+        return self.constant or self
+
+    def round_number(self, value: Fraction) -> float:
+        """Returns the double next to a number that this target can hold.
+
+        Raises:
+            EmitError: it is too large or too small; says what the target holds.
+        """
+        size = abs(value)
+        if size > self.largest or (0 < size < self.smallest and self.precision == "single"):
+            number = str(value) if size > DOUBLE.largest else repr(float(value))
+            raise EmitError(
+                f"number {number} is too {'large' if size > 1 else 'small'} for {self.precision} "
+                f"precision, which has {float(self.smallest):.2g} to {float(self.largest):.2g}; "
+                f"rescale it{', or generate in double precision' * (self.precision == 'single')}"
+            )
+        return float(value)
+
+    def format_literal(self, value: float) -> str:
+        """Returns a number as C has it.
+
+        Raises:
+            EmitError: it is too large or too small.
+        """
+        self.round_number(Fraction(value))
+        digits, power, exponent = repr(value).partition("e")
+        if power and self.point:
+            digits, power = digits if "." in digits else f"{digits}.0", "E"
+        return f"{digits}{power}{exponent}{self.suffix}"
+
+    @property
+    def template_words(self) -> dict[str, Any]:
+        """Returns what templates write numbers with."""
+        single = self.precision == "single"
+        return {
+            "single": single,
+            "real": self.number,  # the type
+            "f": self.suffix,  # of literals, and of the functions of <math.h>
+            "literal": self.format_literal,
+            "wide": "(double)" if single else "",  # before what printf prints
+        }
+
+
+DOUBLE = Target(
+    number="double",
+    suffix="",
+    precision="double",
+    exact=2**53,
+    smallest=Fraction(1, 2**1022),
+    largest=Fraction(2**53 - 1) * 2 ** (1024 - 53),
+    functions=MappingProxyType(_MATH | {"sign": "modeler_sign"}),
+    sincos="modeler_sincos",
+    smooth_sign="smooth_sign",
+)
+
+SINGLE = Target(
+    number="float",
+    suffix="f",
+    precision="single",
+    exact=2**24,
+    smallest=Fraction(1, 2**126),
+    largest=Fraction(2**24 - 1) * 2 ** (128 - 24),
+    functions=MappingProxyType(
+        {name: f"{c}f" for name, c in _MATH.items()} | {"sign": "modeler_sign"}
+    ),
+    sincos="modeler_sincos",
+    smooth_sign="smooth_sign",
+)
+
+OF_PRECISION: Mapping[Precision, Target] = MappingProxyType({"double": DOUBLE, "single": SINGLE})
+"""Targets of one sample."""
+
+CUDA = dataclasses.replace(DOUBLE, sincos="sincos")
+"""CUDA has all functions of math.h, and one of its own for both."""
+
+TILES: Mapping[Precision, Target] = MappingProxyType(
+    {
+        precision: dataclasses.replace(
+            target,
+            number="modeler_lanes",
+            functions=MappingProxyType({name: f"modeler_lanes_{c}" for name, c in _MATH.items()}),
+            sincos="modeler_lanes_sincos",
+            smooth_sign="modeler_lanes_smooth_sign",
+            law="modeler_lanes_law_{axes}{along}(&{name}, {arguments})",
+            spread="modeler_lanes_spread({0})",
+            constant=target,
+        )
+        for precision, target in OF_PRECISION.items()
+    }
+)
+"""Targets of vectors whose lanes are samples."""
+
+
+# Names of the temporaries of a function, and the comments between them, from the graph's labels.
+#
+# A name shows quantity, link and component: `wd3_z`, `f3_MXx` of one unit of MX3, `w3b_x` on the
+# way to w3, `minus_U3_xx` of minus that. Names are unique however their letters are written, as
+# some languages do not distinguish `U3_x` from `u3_x`. What has no label keeps a number: `t7`.
+
+
+Letters = tuple[str, str, str]
+"""Letter of a quantity, "meaning" or of one "unit" of something, and its step."""
+
+_WIDTH = 96  # of a line without its indent
+_SHORT = re.compile(r"\b[tk]\d+\b")
+_GIVEN = re.compile(r"(?:const \w+ )?(\w+) :?= ")
+
+
+@cache
+def _read_quantities() -> Mapping[str, Any]:
+    return tomllib.loads(Path(__file__).with_name("quantities.toml").read_text("utf-8"))
+
+
+class Naming:
+    """The names in the lines of one function.
+
+    Attributes:
+        letters: those that occur.
+    """
+
+    def __init__(
+        self,
+        graph: Graph,
+        labels: Mapping[int, Label],
+        nodes: Mapping[str, int],
+        lines: Iterable[str],
+    ) -> None:
+        """Names them.
+
+        Args:
+            graph: of the nodes.
+            labels: of nodes.
+            nodes: {short name, `t7`: its node}.
+            lines: of the function, with short names.
+        """
+        self._links = graph.links
+        self._labels = {s: labels[k] for s, k in nodes.items() if k in labels}
+        self.letters = frozenset((e.quantity, _find_kind(e), e.step) for e in self._labels.values())
+        self._names: dict[str, str] = {}
+        self._announced: set[Letters] = set()
+        taken = set(re.findall(r"[a-z_]\w*", "\n".join(lines).lower()))
+        for short, label in self._labels.items():
+            name = first = _format_name(label)
+            while name.lower() in taken:
+                number = name[len(first) + 1 :] or "1"
+                name = f"{first}_{int(number) + 1}"
+            taken.add(name.lower())
+            self._names[short] = name
+
+    def write_names(self, lines: Sequence[str], remark: str) -> tuple[str, ...]:
+        """Returns the lines with the names, a comment before the first of each quantity of a link.
+
+        As many as before: a comment, and what a line is too long for, stand within the line.
+
+        Args:
+            lines: some of the function.
+            remark: a comment, around `{}`.
+        """
+        named_lines = []
+        for line in lines:
+            assignment = _GIVEN.match(line)
+            label = self._labels.get(assignment[1]) if assignment else None
+            text = _wrap_line(_SHORT.sub(lambda match: self._names.get(match[0], match[0]), line))
+            comment = "" if label is None else self._format_comment(label)
+            named_lines.append(f"{_wrap_line(remark.format(comment))}\n{text}" if comment else text)
+        return tuple(named_lines)
+
+    def _format_comment(self, label: Label) -> str:
+        """What is announced before the first value of a quantity of a link; may be empty."""
+        quantity, link = _read_quantities()[label.quantity], self._links[label.link]
+        key = (label.quantity, _find_kind(label), label.link)
+        if "equation" not in quantity or "d" in label.step or key in self._announced:
+            return ""
+        self._announced.add(key)
+        equation = quantity["equation"] + quantity.get(link.moves, "")
+        text = f"{quantity[key[1]]}, {label.quantity}{{j}} = {equation}"
+        return f"link {label.link}: " + text.format(
+            i=_format_link(link.antecedent), j=_format_link(label.link)
+        )
+
+
+def _find_kind(label: Label) -> str:
+    """Which text of its quantity shows what it is, or what it is a derivative of."""
+    derived = "d" in label.step and "meaning" in _read_quantities()[label.quantity]
+    return "unit" if label.of and not derived else "meaning"
+
+
+def _format_link(name: str) -> str:
+    """A link's name behind the letter of a quantity."""
+    word = re.sub(r"\W", "", name)
+    return word if word[:1].isdigit() else f"_{word}"
+
+
+def _format_name(label: Label) -> str:
+    component = re.sub(r"\W", "", label.of) + label.component
+    name = f"{label.quantity}{_format_link(label.link)}{label.step}"
+    name = "minus_" * label.minus + name + f"_{component}" * bool(component)
+    return re.sub("__+", "_", name)  # which compilers keep for themselves
+
+
+def _wrap_line(line: str, width: int = _WIDTH) -> str:
+    """The statement in lines of readable length."""
+    if len(line) <= width:
+        return line
+    return textwrap.fill(
+        line, width, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False
+    )
+
+
+def format_legend(letters: Iterable[Letters]) -> list[str]:
+    """Returns what the letters are, a line for each that occurs; none where nothing is named.
+
+    Args:
+        letters: of the functions of a file.
+    """
+    letter_set, lines, table = set(letters), [], dict(_read_quantities())
+    for step, meaning in table.pop("steps").items():
+        owners = sorted({each[0] for each in letter_set if step in each[2]}, key=str.lower)
+        line = f"...{step}   {meaning}: {', '.join(owners)}"
+        lines += _wrap_line(line, 90).split("\n") if owners else []
+    rows = [
+        f"{letter + '_1' * (kind == 'unit'):<7}{quantity[kind]}"
+        for letter, quantity in table.items()
+        for kind in ("meaning", "unit")
+        if any(each[:2] == (letter, kind) for each in letter_set)
+    ]
+    return rows + lines
+
 
 # One operation as C99 text.
 #

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from modeler.codegen import functions as layout
+from modeler.codegen.block import Target
 from modeler.codegen.elimination import (
     Elimination,
     SharedSines,
@@ -23,7 +24,6 @@ from modeler.codegen.elimination import (
     sample_jacobians,
 )
 from modeler.codegen.functions import Arguments, CFunction, Closed, read_catalogue
-from modeler.codegen.targets import Target
 from modeler.core.errors import EmitError
 from modeler.derivation import BaseParameters, Closure, Expr, SymbolicModel
 

@@ -10,12 +10,10 @@ import numpy as np
 import sympy
 
 from modeler.codegen import functions as layout
-from modeler.codegen.block import Block, format_float, make_block
+from modeler.codegen.block import Block, Target, format_float, format_legend, make_block
 from modeler.codegen.control import format_state_prototypes
 from modeler.codegen.functions import CFunction, wrap_names
-from modeler.codegen.naming import format_legend
 from modeler.codegen.package import render
-from modeler.codegen.targets import Target
 from modeler.codegen.thresholds import THRESHOLDS
 from modeler.core.expression import Expression, Law
 from modeler.core.files import locate_resources

@@ -8,9 +8,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from modeler.codegen.block import make_block
+from modeler.codegen.block import Target, make_block
 from modeler.codegen.functions import CFunction, wrap_names
-from modeler.codegen.targets import Target
 from modeler.codegen.thresholds import THRESHOLDS
 from modeler.core.expression import Law
 from modeler.core.json import select_attributes

@@ -8,6 +8,7 @@ from functools import cache
 import sympy
 
 from modeler.codegen import closed, elimination, functions as layout
+from modeler.codegen.block import OF_PRECISION, TILES, Target
 from modeler.codegen.closed import LoopSolver
 from modeler.codegen.context import (
     ModuleContext,
@@ -35,7 +36,6 @@ from modeler.codegen.fitted import (
 from modeler.codegen.functions import CFunction
 from modeler.codegen.package import C_INTERFACE, LICENSE, build_package_files, make_origin
 from modeler.codegen.printers import build_a2l_files, build_cuda_files, build_structured_text
-from modeler.codegen.targets import OF_PRECISION, TILES, Target
 from modeler.codegen.vectors import build_stored_states, format_vectors
 from modeler.core import manifest
 from modeler.core.choices import Precision

@@ -12,9 +12,9 @@ from fractions import Fraction
 from typing import Any
 
 from modeler.codegen import functions as layout
+from modeler.codegen.block import OF_PRECISION
 from modeler.codegen.closed import build_closed_dynamics
 from modeler.codegen.functions import CFunction
-from modeler.codegen.targets import OF_PRECISION
 from modeler.core.errors import EmitError
 from modeler.core.manifest import FittedSpec, ModuleSpec
 from modeler.derivation import BaseParameters, Expr, ShaftColumn, SymbolicModel, combine_along_shaft

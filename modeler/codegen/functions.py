@@ -12,8 +12,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from modeler.codegen.block import Block
-from modeler.codegen.targets import Target
+from modeler.codegen.block import Block, Target
 from modeler.codegen.thresholds import THRESHOLDS
 from modeler.core.errors import EmitError
 from modeler.core.manifest import ArgumentSpec, ModuleSpec

@@ -7,13 +7,11 @@ from types import MappingProxyType
 from typing import Any
 
 from modeler.codegen import functions as layout
-from modeler.codegen.block import make_block
+from modeler.codegen.block import CUDA, DOUBLE, Target, format_legend, make_block
 from modeler.codegen.context import ModuleContext, build_law_tables, read_law_source
 from modeler.codegen.control import SMOOTH
 from modeler.codegen.fitted import Width, find_widths, format_fitted_texts
 from modeler.codegen.functions import CFunction
-from modeler.codegen.naming import format_legend
-from modeler.codegen.targets import CUDA, DOUBLE, Target
 from modeler.core.errors import EmitError
 from modeler.core.manifest import CUDA_THREADS, ModuleSpec
 from modeler.derivation import Label

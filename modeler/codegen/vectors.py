@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from modeler.codegen.block import Target
 from modeler.codegen.control import AtState
 from modeler.codegen.functions import CFunction, Closed, wrap_names
-from modeler.codegen.targets import Target
 from modeler.codegen.thresholds import THRESHOLDS
 from modeler.core.errors import EmitError
 from modeler.derivation import (

@@ -7,8 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from modeler.codegen.block import format_number, make_block
-from modeler.codegen.targets import DOUBLE, FUNCTIONS, SINGLE, TILES
+from modeler.codegen.block import DOUBLE, FUNCTIONS, SINGLE, TILES, format_number, make_block
 from modeler.core.errors import EmitError
 from modeler.core.files import locate_resources
 from modeler.derivation.graph import Expr, Graph

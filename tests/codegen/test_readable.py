@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from modeler.api.workflow import load
-from modeler.codegen import naming
+from modeler.codegen.block import Naming
 from modeler.codegen.control import Control
 from modeler.codegen.emit import emit
-from modeler.codegen.naming import Naming
 from modeler.codegen.workflow import derive
+from modeler.derivation import Label
 from modeler.derivation.derive import derive_model
 from modeler.robot import parse_robot_text
 from tests.codegen.fitted_library import SLOW, fitted_of
@@ -104,7 +104,7 @@ def test_labels_tell_the_truth(robot: str) -> None:
 
 
 def test_names_are_c_names_and_differ_where_letters_fall_together() -> None:
-    label = naming.Label("w", "leg a", "x", "", "", True)
+    label = Label("w", "leg a", "x", "", "", True)
     graph = module("wrist").model.graph
     graph.links["leg a"] = next(iter(graph.links.values()))
     labels = {2: label, 3: label, 4: label._replace(link="3", component="")}
