@@ -85,3 +85,4 @@ from modeler.robot import (
     set_joint_effect as set_joint_effect,
 )
 from modeler.runtime import find_cache_folder as find_cache_folder
+from modeler.views import build_figure as build_figure

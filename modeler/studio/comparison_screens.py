@@ -252,7 +252,7 @@ def draw_zoomable(picture: Any, time: str, load_window: Callable[..., Awaitable[
         ends = figures.read_x_range(event.args)
         finer = None if ends is False else await load_window(*(ends or ()))
         if finer is not None:
-            plot.update_figure(figures.build_figure(finer, time))
+            plot.update_figure(figures.build_plot(finer, time))
 
     plot.on("plotly_relayout", update_picture)
 

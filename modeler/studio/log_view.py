@@ -250,7 +250,7 @@ class LogView:
         """Draws pictures first, then what takes longer."""
         with add_card(self.file), ui.row().classes("w-full no-wrap items-start data-log-view"):
             with ui.column().classes("data-pictures gap-2"):
-                self._plot = ui.plotly(figures.build_figure(self._build_picture({}), self.file))
+                self._plot = ui.plotly(figures.build_plot(self._build_picture({}), self.file))
                 self._plot.classes("w-full").on("plotly_relayout", self._update_zoom)
                 self._line = add_player(self.file, self.known.ends)
                 self._line.connect_brush(self._hold_range)
@@ -308,7 +308,7 @@ class LogView:
         more = (self.known.clock, "", THRESHOLDS.all_curve_points // max(1, len(names)))
         raw = await self._ask_viewer("log_window", names, *window, *more, kind="window")
         if raw is not None:
-            self._plot.update_figure(figures.build_figure(self._build_picture(raw), self.file))
+            self._plot.update_figure(figures.build_plot(self._build_picture(raw), self.file))
 
     def _build_picture(self, raw: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Picture:
         """Positions, speeds and torques as they are mapped, one below the other."""

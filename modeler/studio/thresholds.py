@@ -13,8 +13,6 @@ class Thresholds:
     """s after a window was closed until another one may change things."""
     redraw_delay: float = 0.5
     """s without another incoming file until the screen is redrawn."""
-    min_webgl_points: int = 5000
-    """Points from which the graphics processor draws them."""
     max_name_bytes: int = 120
     """Bytes to which the name of an incoming file is shortened."""
     spare_disk_bytes: int = 1_048_576

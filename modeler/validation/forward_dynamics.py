@@ -83,10 +83,9 @@ class FittedPlant:
             raise DataError(
                 f"{self.model.spec.robot}: with the fitted values the inertia matrix is not "
                 f"positive definite in {format_percent(float(np.mean(bad)))} of the postures, most "
-                "at "
-                f"joint {self.model.spec.joints[light].name}, so no motion follows from a torque; "
-                "expected the inertia of a body; fit with `--method consistent`, or record more "
-                "motion of that joint"
+                f"at joint {self.model.spec.joints[light].name}, so no motion follows from a "
+                "torque; expected the inertia of a body; fit with `--method consistent`, or record "
+                "more motion of that joint"
             )
 
     def compute_forces(
@@ -275,10 +274,9 @@ class Stability(ShortRepr):
             times = f"{np.exp(growth):.2g}" if growth < 25.0 else tens
             return (
                 "unstable by nature: along this motion any error doubles every "
-                f"{self.doubling_time:.2g} s, {times} times in "
-                f"{self.seconds:.3g} s, whatever the model; steepest at {self.steepest_time:.4g} s "
-                "of "
-                f"{self.log}. A long free run says nothing here: judge by the windows"
+                f"{self.doubling_time:.2g} s, {times} times in {self.seconds:.3g} s, whatever the "
+                f"model; steepest at {self.steepest_time:.4g} s of {self.log}. A long free run "
+                "says nothing here: judge by the windows"
             )
         if growth < -_FADED:
             return (

@@ -221,8 +221,7 @@ def draw_free_run_picture(result: FreeRun, j: int) -> Picture:
         title=f"Joint {joint.name}: measured and free-running position",
         caption=(
             f"Above: measured ({_MEASURED.description}) and simulated ({_SIMULATED.description}) "
-            "under the "
-            f"logged torques, from the measured state at the start of each window of "
+            "under the logged torques, from the measured state at the start of each window of "
             f"{result.window:g} s. Below ({_ERROR.description}): the difference, with the bound "
             f"({_BOUND.description}) of {100 * result.bound:g} % of the range of motion."
         ),

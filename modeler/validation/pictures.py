@@ -196,18 +196,16 @@ def _write_caption(prediction: Prediction, item: JointComparison) -> list[str]:
     what = WORDS[item.joint.effort_unit]
     lines = [
         f"Above: measured ({_MEASURED.description}) and predicted ({_PREDICTED.description}) "
-        f"{what}; where you "
-        f"see no {_MEASURED.description}, they agree. Below ({_RESIDUAL.description}): the "
-        "difference, on its "
-        f"own, finer scale. Shaded {COLOR_NAMES[SHADE]} from top to bottom: the {WINDOW} s "
-        "with the largest squared residual, enlarged on the right."
+        f"{what}; where you see no {_MEASURED.description}, they agree. Below "
+        f"({_RESIDUAL.description}): the difference, on its own, finer scale. Shaded "
+        f"{COLOR_NAMES[SHADE]} from top to bottom: the {WINDOW} s with the largest squared "
+        "residual, enlarged on the right."
     ]
     if prediction.sigma is not None:
         lines.append(
             f"Broad {_BAND.description} there: two standard deviations of the predicted {what} on "
-            "either "
-            "side, from the covariance of the fitted parameters alone: 95 % where the model is "
-            "right; it knows nothing of effects that the model lacks."
+            "either side, from the covariance of the fitted parameters alone: 95 % where the model "
+            "is right; it knows nothing of effects that the model lacks."
         )
     masks = describe_masks(prediction, item.index)
     return [*lines, masks] if masks else lines
@@ -329,19 +327,16 @@ _EMPTY = Panel("", "", "", ())
 
 _FIRST = (
     f"{_CLOUD.description.capitalize()}: samples. {_MEAN.description.capitalize()}: mean of the "
-    "residual in "
-    "each bin, whiskers two standard errors (from the spread between separate passes through the "
-    f"bin; none where there was only one). A {_MEAN.description} line that leaves zero by more "
-    "than its "
-    "whiskers is a pattern the model does not have: a step at zero velocity looks like Coulomb "
-    "friction, a slope like viscous friction, a wave over position like gravity or ripple, a slope "
-    "over acceleration like inertia, a curve that starts anew at every reversal (travel) like "
-    "presliding."
+    "residual in each bin, whiskers two standard errors (from the spread between separate passes "
+    f"through the bin; none where there was only one). A {_MEAN.description} line that leaves zero "
+    "by more than its whiskers is a pattern the model does not have: a step at zero velocity looks "
+    "like Coulomb friction, a slope like viscous friction, a wave over position like gravity or "
+    "ripple, a slope over acceleration like inertia, a curve that starts anew at every reversal "
+    "(travel) like presliding."
 )
 _HEATED = (
     f" Over temperature, {_MEAN.description} is motion in the positive and {_BACK.description} in "
-    "the negative "
-    "direction: friction that changes moves them apart or together."
+    "the negative direction: friction that changes moves them apart or together."
 )
 _LAST = (
     "The percentage is the share of the residual variance that such a curve predicts on motion not "

@@ -9,7 +9,8 @@ from .derivation import (
     render_relations as render_relations,
 )
 from .diagnosis import build_diagnosis_page as build_diagnosis_page
-from .figure_page import write_files as write_files
+from .figure_plotly import build_figure as build_figure, escape_text as escape_text
+from .figures import write_files as write_files
 from .fit import (
     build_estimators_page as build_estimators_page,
     build_fit_page as build_fit_page,

@@ -248,8 +248,7 @@ def _build_order_panel(item: Evidence) -> Panel:
 def _write_caption(item: Evidence, view: AxisRanges) -> list[str]:
     lines = [
         f"Look for: {item.step.candidate.effect.signature}. Without the effect, all other "
-        "parameters "
-        "are fitted anew; with it, the scale is the same.",
+        "parameters are fitted anew; with it, the scale is the same.",
         f"{ROWS.description.capitalize()}: filtered rows; {MEANS.description}: means of bins with "
         "95 % "
         f"intervals, from blocks of time, of what scatters about the effect; {EFFECT.description}: "
@@ -258,8 +257,7 @@ def _write_caption(item: Evidence, view: AxisRanges) -> list[str]:
     if item.axis.shows == "waves":
         lines.append(
             f"In the spectrum {LINES.description} is without the effect, {LINES_AFTER.description} "
-            "with it. "
-            "Rows of fast motion show less of the wave: the filter takes it."
+            "with it. Rows of fast motion show less of the wave: the filter takes it."
         )
     elif item.effect_torque is None:
         lines.append(
@@ -271,8 +269,7 @@ def _write_caption(item: Evidence, view: AxisRanges) -> list[str]:
         if item.effect_torque_sigma is not None:
             lines.append(
                 f"Broad {LAW_BAND.description}: two standard deviations of the law on either side, "
-                "by "
-                "the scatter between blocks of time, its shapes taken as known."
+                "by the scatter between blocks of time, its shapes taken as known."
             )
     if item.baseline is not None:
         lines.append(
@@ -425,13 +422,12 @@ def _write_torque_caption(item: Evidence, what: str, window: tuple[float, float]
     before, after = (float(np.sqrt(np.mean(e[inside] ** 2))) for e in (item.before, item.after))
     return (
         f"Above, {MEASURED.description}: measured {what}; {BEFORE.description}: the model without "
-        "the effect, "
-        f"fitted to the same rows; {AFTER_STYLE.description}: with it. Below, what they leave: "
-        f"{LEFT.description} before, {STAYS.description} after. Shaded {COLOR_NAMES[SHADE]}: the "
-        f"{WINDOW} s "
-        f"with the largest squared residual before, {window[0]:.2f} to {window[1]:.2f} s; the rms "
-        f"residual there falls from {before:.3g} to {after:.3g} {item.unit}. Filtered rows of the "
-        "logs that are explained; rows that do not count are left out."
+        f"the effect, fitted to the same rows; {AFTER_STYLE.description}: with it. Below, what "
+        f"they leave: {LEFT.description} before, {STAYS.description} after. Shaded "
+        f"{COLOR_NAMES[SHADE]}: the {WINDOW} s with the largest squared residual before, "
+        f"{window[0]:.2f} to {window[1]:.2f} s; the rms residual there falls from {before:.3g} to "
+        f"{after:.3g} {item.unit}. Filtered rows of the logs that are explained; rows that do not "
+        "count are left out."
     )
 
 

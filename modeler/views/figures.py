@@ -6,6 +6,7 @@ paper; the pages that commands write have the ones that can be zoomed.
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,13 +16,18 @@ from modeler.core.figure import (
     COLORS,
     LIMIT,
     ORANGE,
+    Band,
     Bars,
     Curve,
+    Heat,
+    Means,
     Panel,
     Picture,
+    Series,
     Style,
     thin_curves,
 )
+from modeler.core.files import write_atomically
 from modeler.core.result import Figures
 from modeler.estimation import FitResult
 from modeler.robot import Robot
@@ -120,3 +126,71 @@ def build_curves(
         style = Style(COLORS[k % len(COLORS)], dash=k >= len(COLORS))
         curves.append(Curve(name, time[rows], values[rows], style))
     return tuple(curves)
+
+
+# Pictures as files: PNG, SVG, and their numbers.
+
+
+def write_files(
+    folder: Path, pictures: Sequence[Picture], progress: Callable[[float], None] | None = None
+) -> tuple[Path, ...]:
+    """Writes every picture; returns the paths written.
+
+    Args:
+        folder: made if it is not there.
+        pictures: what to draw.
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        ModelerError: the folder cannot be written.
+    """
+    from modeler.views.figure_matplotlib import render_images  # matplotlib takes long to load
+
+    written = []
+    for number, picture in enumerate(pictures, start=1):
+        files = {**render_images(picture), "csv": format_csv(picture).encode()}
+        for kind, content in files.items():
+            place = Path(folder) / f"{picture.name}.{kind}"
+            write_atomically(place, content)
+            written.append(place)
+        if progress is not None:
+            progress(number / len(pictures))
+    return tuple(written)
+
+
+def format_csv(picture: Picture) -> str:
+    """Formats the numbers of a picture: panel, series, x, y, error; five significant digits."""
+    lines = ["panel,series,x,y,error"]
+    for panel in (panel for row in picture.panels for panel in row):
+        for series in panel.series:
+            lines += [
+                f"{_quote_label(panel.title)},{_quote_label(series.label)},{row}"
+                for row in _format_rows(series)
+            ]
+    return "\n".join(lines) + "\n"
+
+
+def _format_rows(series: Series) -> list[str]:
+    if isinstance(series, Heat):
+        return [
+            f"{_quote_label(column)} / {_quote_label(row)},{series.values[i, j]:.5g},"
+            for i, row in enumerate(series.rows)
+            for j, column in enumerate(series.columns)
+        ]
+    if isinstance(series, Bars):
+        pairs = zip(series.names, series.values, strict=True)
+        return [f"{_quote_label(name)},{value:.5g}," for name, value in pairs]
+    if isinstance(series, Means):
+        triples = zip(series.x, series.y, series.error, strict=True)
+        return [f"{x:.5g},{y:.5g},{error:.5g}".replace("nan", "") for x, y, error in triples]
+    if isinstance(series, Band):
+        middle, half = 0.5 * (series.low + series.high), 0.5 * (series.high - series.low)
+        triples = zip(series.x, middle, half, strict=True)
+        return [f"{x:.7g},{y:.5g},{error:.5g}" for x, y, error in triples if np.isfinite(y)]
+    both = zip(series.x, series.y, strict=True)
+    return [f"{x:.7g},{y:.5g}," for x, y in both if np.isfinite(y)]
+
+
+def _quote_label(text: str) -> str:
+    """Commas would shift the columns; line breaks of labels are no part of a name."""
+    return text.replace(",", ";").replace("\n", " ")

@@ -112,8 +112,7 @@ def draw_finding_picture(fleet: Fleet, one: FleetFinding) -> Picture:
     label = f"{one.quantity.parameter} [{one.quantity.unit}]"
     panel = Panel("", f"time [{fleet.unit}]", label, tuple(series))
     caption = (
-        f"{format_effect_title(one.quantity)} of {one.quantity.description}, log by log: "
-        "blue the "
+        f"{format_effect_title(one.quantity)} of {one.quantity.description}, log by log: blue the "
         "machine of this finding, with two standard deviations (scatter from period to period "
         "included), grey all others."
     )
@@ -136,9 +135,8 @@ def draw_quantity_picture(fleet: Fleet, each: QuantityHistory) -> Picture:
     label = f"{each.quantity.parameter} [{each.quantity.unit}]"
     panel = Panel("", f"time [{fleet.unit}]", label, series)
     caption = (
-        f"{format_effect_title(each.quantity)} of {each.quantity.description}, log by log, "
-        "one line a "
-        "machine; whiskers: two standard deviations, scatter from period to period included."
+        f"{format_effect_title(each.quantity)} of {each.quantity.description}, log by log, one "
+        "line a machine; whiskers: two standard deviations, scatter from period to period included."
     )
     return Picture("quantity", label, caption, ((panel,),), 320)
 

@@ -476,8 +476,7 @@ def draw_joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -
     rows = tuple(tuple(panels[k : k + across]) for k in range(0, len(panels), across))
     caption = (
         f"{SAME.description.capitalize()}: the error of each joint on motion that was not fitted, "
-        "in "
-        "parts of its own rms torque or force, before any effect and after each"
+        "in parts of its own rms torque or force, before any effect and after each"
     )
     drawn = {bars.style for panel in panels for bars in panel.series if isinstance(bars, Bars)}
     for style, what in ((BETTER, "fall"), (WORSE, "rise")):

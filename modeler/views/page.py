@@ -1,7 +1,9 @@
 """Pages: blocks as plain data, their rendering, the index of a folder."""
 
+import base64
 import dataclasses
 import functools
+import gzip
 import json
 import re
 import shlex
@@ -15,7 +17,12 @@ import jinja2
 from modeler.core.figure import Picture
 from modeler.core.files import locate_resources, resolve_page_path, write_atomically
 from modeler.core.formula import Formula
-from modeler.views import figure_page
+from modeler.views.figure_plotly import (
+    build_page_figure,
+    collect_legend,
+    find_heat_maps,
+    remove_heat_maps,
+)
 
 
 @dataclass(frozen=True)
@@ -139,20 +146,24 @@ PLOTLY = "plotly/plotly-basic.min.js"
 
 
 class Drawings:
-    """The pictures of one page, as its template asks for them."""
+    """The figures of one page, as its template asks for them."""
 
     def __init__(self) -> None:
-        self.numbers = figure_page.ArrayStore()
-        self.any = False
+        self.figures: list[dict[str, Any]] = []
 
-    def content(self, picture: Picture) -> str:
-        """Returns the data from which the script draws a picture."""
-        self.any = True
-        return encode_script_json(figure_page.describe_picture(picture, self.numbers))
+    def add(self, picture: Picture) -> dict[str, Any]:
+        """Takes a picture, and returns the figure that the script draws."""
+        self.figures.append(build_page_figure(picture))
+        return self.figures[-1]
 
-    def block(self) -> str:
-        """Returns the numbers of all pictures so far."""
-        return encode_script_json(self.numbers.encode_block())
+    def encode(self) -> str:
+        """Returns the figures so far, compressed."""
+        return compress_base64(json.dumps(self.figures, separators=(",", ":")).encode())
+
+
+def compress_base64(content: bytes) -> str:
+    """Compresses by gzip and encodes as base64, reproducibly."""
+    return base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
 
 
 def render_template(template: str, **values: Any) -> str:
@@ -179,9 +190,9 @@ def _build_environment() -> jinja2.Environment:
     made.globals.update(
         asset=_read_asset,
         plotly=_read_plotly,
-        plotted=figure_page.arrange_panels,
-        cells=figure_page.find_heat_maps,
-        keys=figure_page.collect_legend,
+        without_maps=remove_heat_maps,
+        cells=find_heat_maps,
+        keys=collect_legend,
         json=encode_script_json,
         about=None,
     )
@@ -197,7 +208,7 @@ def _read_asset(name: str) -> str:
 
 @functools.cache
 def _read_plotly() -> str:
-    return figure_page.compress_base64((locate_resources("templates") / PLOTLY).read_bytes())
+    return compress_base64((locate_resources("templates") / PLOTLY).read_bytes())
 
 
 def _format_share(value: float, top: float) -> str:

@@ -33,8 +33,8 @@ class Thresholds:
     """Seconds around a change of sign that are drawn."""
     push_margin: float = 3.0
     """Seconds around a push that are drawn."""
-    single_precision_share: float = 1e-06
-    """Share of the x range that single precision may miss: less than a pixel."""
+    min_webgl_points: int = 5000
+    """Points from which the graphics processor draws them; the thinned ones of a page are fewer."""
     max_bars: int = 40
     """Parameters that a chart of standard deviations shows."""
     min_correlation: float = 0.95

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 
 from modeler.core.figure import BLUE, Curve, Panel, Picture, Points, Style
-from modeler.studio.figures import build_figure, read_x_range
+from modeler.studio.figures import read_x_range
+from modeler.views.figure_plotly import build_figure
 from tests.studio.drawn import CLOUD, EVERY_KIND, SHARED, X, Y
 
 
