@@ -7,7 +7,7 @@ here and nowhere else.
 import html
 import io
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -64,6 +64,14 @@ class Table(ShortRepr):
             name, _, unit = text.removesuffix("]").rpartition(" [")
             columns.append((name, unit) if name and text.endswith("]") else (text, ""))
         return cls(title, tuple(columns), tuple(map(tuple, rows)), note)
+
+    @classmethod
+    def of_rows(
+        cls, title: str, columns: Sequence["Column"], things: Iterable[Any], note: str = ""
+    ) -> "Table":
+        """Returns the table of what each column reads of each row."""
+        rows = ([column.get_value(thing) for column in columns] for thing in things)
+        return cls.build(title, [column.head for column in columns], rows, note)
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -190,6 +198,63 @@ class Table(ShortRepr):
     def _is_numeric(self, k: int) -> bool:
         cells = [row[k] for row in self.rows if row[k] is not None]
         return all(isinstance(cell, int | float) for cell in cells)
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of the rows that a result has, stated once for text, pages, files and notebooks.
+
+    Attributes:
+        head: name, with the unit of all cells, as in "mass [kg]".
+        read: path of the attribute, as in "largest.value", or what reads a row; None is a dash.
+        show: how a person reads it: a format; "%" for a share in percent; "" as it is; or what
+            makes a text of the row. None: in files and notebooks only.
+        unit: path of the unit of a cell, where each row has its own: shown in the cell.
+        kind: of the column of a page: "text"; "bar" for a bar before the number.
+        short: its head in a text.
+    """
+
+    head: str
+    read: str | Callable[[Any], Any]
+    show: str | Callable[[Any], str] | None = ""
+    unit: str = ""
+    kind: str = ""
+    short: str = ""
+
+    def get_value(self, thing: Any) -> Any:
+        """Returns the cell of a row."""
+        return self.read(thing) if callable(self.read) else _follow_path(thing, self.read)
+
+    def format(self, thing: Any) -> str:
+        """Returns the cell of a row as text."""
+        if callable(self.show):
+            return self.show(thing)
+        value = self.get_value(thing)
+        if value is None or (isinstance(value, float) and not math.isfinite(value)):
+            return "-"
+        text = format_percent(value) if self.show == "%" else format(value, self.show or "")
+        return f"{text} {_follow_path(thing, self.unit):<3}" if self.unit else text
+
+
+def _follow_path(thing: Any, path: str) -> Any:
+    """Attributes, and numbers of items; None where it ends at one."""
+    for name in path.split("."):
+        if thing is not None:
+            thing = thing[int(name)] if name.isdigit() else getattr(thing, name)
+    return thing
+
+
+def format_rows(columns: Sequence[Column], things: Iterable[Any]) -> list[list[str]]:
+    """Returns heads and rows of the columns that a person reads."""
+    shown = [column for column in columns if column.show is not None]
+    rows = [[column.format(thing) for column in shown] for thing in things]
+    return [[column.short or column.head for column in shown], *rows]
+
+
+def select_columns(columns: Sequence[Column], names: str) -> list[Column]:
+    """Returns the columns of these heads, which stand between commas."""
+    by_head = {column.head: column for column in columns}
+    return [by_head[name] for name in names.split(", ")]
 
 
 def align_columns(rows: Sequence[Sequence[str]], left: Sequence[int]) -> list[str]:

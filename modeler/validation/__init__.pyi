@@ -1,21 +1,20 @@
 from .comparison import (
+    JOINT_COLUMNS as JOINT_COLUMNS,
     WINDOW as WINDOW,
     Comparison as Comparison,
     JointComparison as JointComparison,
+    build_log_columns as build_log_columns,
     compare as compare,
     compare_long_logs as compare_long_logs,
     describe_methods as describe_methods,
-    format_or_dash as format_or_dash,
-    tabulate_logs as tabulate_logs,
 )
 from .fleet import (
-    HEAD as HEAD,
+    QUANTITY_COLUMNS as QUANTITY_COLUMNS,
     Fleet as Fleet,
     FleetFinding as FleetFinding,
     QuantityHistory as QuantityHistory,
     QuantityValues as QuantityValues,
     analyse_fleet as analyse_fleet,
-    build_table_rows as build_table_rows,
     describe_finding as describe_finding,
     format_effect_title as format_effect_title,
     format_fleet as format_fleet,
@@ -56,6 +55,11 @@ from .models import (
 )
 from .pictures import (
     break_at_gaps as break_at_gaps,
+    build_cloud as build_cloud,
+    build_means as build_means,
+    build_residual_panel as build_residual_panel,
+    build_time_curve as build_time_curve,
+    build_torque_panels as build_torque_panels,
     compute_binned_means as compute_binned_means,
     concatenate_time as concatenate_time,
     describe_masks as describe_masks,

@@ -15,7 +15,15 @@ from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
 from modeler.core.json import convert_to_plain, select_attributes
 from modeler.core.result import Result
-from modeler.core.table import POOLED, WORDS, align_columns, format_percent
+from modeler.core.table import (
+    POOLED,
+    WORDS,
+    Column,
+    align_columns,
+    format_percent,
+    format_rows,
+    select_columns,
+)
 from modeler.estimation import IdentifiedModel, read_all_rows, reduce_by_threads
 from modeler.numerics import spectra
 from modeler.numerics.filters import choose_row_spacing
@@ -36,7 +44,26 @@ from modeler.validation.thresholds import THRESHOLDS
 # The comparison as a table of plain text.
 
 
-_HEAD = ("joint", "error", "rms", "largest", "at", "R2", "repeatable", "noise", "bias")
+_UNIT = "joint.effort_unit"
+JOINT_COLUMNS = (
+    Column("joint", "joint.name"),
+    Column("relative error", "relative_error", "%", kind="bar", short="error"),
+    Column("rms", "rms", ".3g", _UNIT),
+    Column("sigma", "predicted_sigma", ".2g", _UNIT),
+    Column("rms measured", "measured_rms", ".3g", _UNIT),
+    Column("unit", _UNIT, None),
+    Column("largest", "largest.value", ".3g", _UNIT),
+    Column("at [s]", "largest.time", lambda item: item.largest.describe(), kind="text", short="at"),
+    Column("of", "largest.log", None),
+    Column("R2", "r2", ".3f"),
+    Column("repeatable", "shares.systematic_share", "%"),
+    Column("noise", "shares.noise_share", "%"),
+    Column("bias", "bias", ".2g", _UNIT),
+    Column("samples", "samples"),
+)
+"""Of the table of joints."""
+
+_SHORT = "joint, relative error, rms, largest, at [s], R2, repeatable, noise, bias"
 _LEFT = (0, 4)  # columns of text
 
 METHODS = {
@@ -55,40 +82,17 @@ def describe_methods(comparison: "Comparison") -> list[str]:
     return [f"{text}{METHODS[name]}" for name in METHODS if name in methods]
 
 
-def format_or_dash(value: float, form: str) -> str:
-    """Formats a number, or a dash where it is not defined."""
-    return format(value, form) if math.isfinite(value) else "-"
+def build_log_columns(comparison: "Comparison") -> list[Column]:
+    """Builds the columns of the table of logs: errors by unit, and of each joint."""
 
+    def read(group: str, name: str) -> Callable[["LogError"], float]:
+        return lambda log: dict(getattr(log, group))[name]
 
-def _format_row(item: "JointComparison") -> tuple[str, ...]:
-    unit, variance_shares = item.joint.effort_unit, item.shares
-    return (
-        item.joint.name,
-        format_percent(item.relative_error),
-        f"{item.rms:.3g} {unit:<3}",
-        f"{item.largest.value:.3g} {unit:<3}",
-        f"{item.largest.time:.2f} s of {item.largest.log}",
-        format_or_dash(item.r2, ".3f"),
-        format_percent(None if variance_shares is None else variance_shares.systematic_share),
-        format_percent(None if variance_shares is None else variance_shares.noise_share),
-        f"{item.bias:.2g} {unit:<3}",
-    )
-
-
-def tabulate_logs(comparison: "Comparison", error: str = "error") -> list[list[str]]:
-    """Returns a head and a row of each log; `error` names that of all joints, by unit."""
-    units = comparison.by_unit
-    errors = [error] if len(units) == 1 else [f"{error} {unit}" for unit in units]
-    names = [f"joint {name}" for name, _ in comparison.logs[0].joints]
-    rows = [
-        [
-            item.log,
-            str(item.samples),
-            *map(format_percent, (*item.by_unit.values(), *dict(item.joints).values())),
-        ]
-        for item in comparison.logs
-    ]
-    return [["log", "samples", *errors, *names], *rows]
+    several = len(comparison.by_unit) > 1
+    units = [("error" + f" {unit}" * several, "by_unit", unit) for unit in comparison.by_unit]
+    names = [(f"joint {name}", "joints", name) for name, _ in comparison.logs[0].joints]
+    errors = [Column(head, read(group, name), "%") for head, group, name in units + names]
+    return [Column("log", "log"), Column("samples", "samples"), *errors]
 
 
 # Where a joint fails: velocity regions and the worst moment.
@@ -256,10 +260,8 @@ def compute_errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
             for j, info in enumerate(prediction.joints)
         )
         samples = int(prediction.used[rows].any(axis=1).sum())
-        whole, by_unit = (
-            _compute_error_ratio(e[rows], measured[rows]),
-            compute_unit_errors(prediction, rows),
-        )
+        whole = _compute_error_ratio(e[rows], measured[rows])
+        by_unit = compute_unit_errors(prediction, rows)
         log_errors.append(LogError(log, samples, whole, joints, by_unit))
     return tuple(log_errors)
 
@@ -276,6 +278,10 @@ class Moment:
     value: float  # N m or N, absolute
     log: str
     time: float  # s, as in the log
+
+    def describe(self) -> str:
+        """Returns when it was."""
+        return f"{self.time:.2f} s of {self.log}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -336,7 +342,7 @@ class Comparison(Result):
 
     def summary(self) -> str:
         """Returns plain text: one line per joint, what the shares mean, one line per log."""
-        rows = [_HEAD, *(_format_row(item) for item in self.joints)]
+        rows = format_rows(select_columns(JOINT_COLUMNS, _SHORT), self.joints)
         lines = align_columns(rows, _LEFT)
         names = max((len(name) for name, _ in self.excluded_joints), default=0)
         width = max(7, names + 1, *(len(row[0]) + 2 for row in rows))
@@ -353,7 +359,7 @@ class Comparison(Result):
             lines.append(f"{self.samples} samples")
         lines += describe_methods(self)
         if len(self.logs) > 1:
-            lines += ["", *align_columns(tabulate_logs(self), (0,))]
+            lines += ["", *align_columns(format_rows(build_log_columns(self), self.logs), (0,))]
         return "\n".join(line.rstrip() for line in lines)
 
 
@@ -504,17 +510,15 @@ def compare_long_logs(
         processing = dataclasses.replace(processing, decimation=least)
     reducer = partial(reduce_by_threads, reduce_by=partial(_predict_chunk, model))
     passes, parts = read_all_rows(compiled, sources, processing, progress, rows, reducer)
-    ripple_windows = passes.survey.observation
+    windows = passes.survey.observation
     steps = [log_part.step * log_part.decimation for log_part in passes.survey.chosen]
     prediction = _join_chunks(
         [source.name for source in sources], [log_part.rows for log_part in parts], steps
     )
-    full = compute_full_rate(ripple_windows, compiled, model.beta)
-    ripples = dataclasses.replace(
-        build_prediction(ripple_windows, ripple_windows.torque), full=full
-    )
+    full = compute_full_rate(windows, compiled, model.beta)
+    ripples = dataclasses.replace(build_prediction(windows, windows.torque), full=full)
     report = regression.build_streamed_report(compiled, sources, passes)
-    return compare(prediction, ripples), dataclasses.replace(ripple_windows, report=report)
+    return compare(prediction, ripples), dataclasses.replace(windows, report=report)
 
 
 def _predict_chunk(

@@ -11,7 +11,7 @@ from modeler.core.errors import DataError
 from modeler.core.json import convert_to_plain, select_attributes
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Result
-from modeler.core.table import align_columns, format_percent
+from modeler.core.table import Column, align_columns, format_percent, format_rows
 from modeler.effects import CATALOGUE, find_effect
 from modeler.validation.fleet_drift import (
     QuantityTests,
@@ -304,7 +304,7 @@ def format_fleet(fleet: Fleet) -> list[str]:
     figure, what = format_headline(fleet)
     lines = [f"{fleet.robot}: {figure} {what}"]
     lines += [f"  {describe_finding(one, fleet.unit)}" for one in fleet.findings]
-    lines += ["", *align_columns(build_table_rows(fleet), (0, 1)), ""]
+    lines += ["", *align_columns(format_rows(QUANTITY_COLUMNS, fleet.histories), (0, 1)), ""]
     lines.append(
         "detectable: the smallest straight drift over all periods that is a finding; chance of any "
         f"finding where nothing drifts: {format_percent(fleet.false_alarm)}"
@@ -327,20 +327,16 @@ def format_skipped(fleet: Fleet) -> list[str]:
     return [f"left out: {text}" for text in texts]
 
 
-HEAD = "joint, effect, parameter, level, unit, scatter, detectable"
+QUANTITY_COLUMNS = (
+    Column("joint", "quantity.joint"),
+    Column("effect", lambda each: format_effect_title(each.quantity), kind="text"),
+    Column("parameter", "quantity.parameter", kind="text"),
+    Column("level", "level", ".4g"),
+    Column("unit", "quantity.unit", kind="text"),
+    Column("scatter", "factor", ".2f"),
+    Column("detectable", "smallest_detectable", ".2g"),
+)
 """Of the table of what was looked at."""
-
-
-def build_table_rows(fleet: Fleet) -> list[list[str]]:
-    """Builds the header, and a row for each quantity."""
-    rows = [HEAD.split(", ")]
-    for each in fleet.histories:
-        quantity, least = each.quantity, each.smallest_detectable
-        level = f"{each.level:.4g}" if each.level == each.level else "-"
-        cells = [quantity.joint or "-", format_effect_title(quantity), quantity.parameter, level]
-        cells += [quantity.unit, f"{each.factor:.2f}", "-" if least is None else f"{least:.2g}"]
-        rows.append(cells)
-    return rows
 
 
 def analyse_fleet(spec: ModuleSpec, summaries: Sequence[LogSummary | SkippedLog]) -> Fleet:
@@ -531,9 +527,7 @@ def _collect_notes(tests: QuantityTests, logs: Sequence[LogSummary]) -> list[str
             f"{FLEET_THRESHOLDS.min_machines} is not reported"
         )
     known = np.isfinite(tests.values).any(axis=0)
-    blind = [
-        q.parameter for q, is_known in zip(tests.quantities, known, strict=True) if not is_known
-    ]
+    blind = [q.parameter for q, seen in zip(tests.quantities, known, strict=True) if not seen]
     if blind:
         notes.append(f"{', '.join(blind)}: no log distinguishes it from the other parameters")
     return notes

@@ -258,8 +258,8 @@ def _is_disjoint(summaries: Sequence[LogSummary], starts: np.ndarray, ends: np.n
     """True if no two logs of a machine overlap, or begin together."""
     machines = np.array([each.log_name.machine for each in summaries])
     for machine in set(machines):
-        log_indices = np.flatnonzero(machines == machine)
-        order = log_indices[np.argsort(starts[log_indices], kind="stable")]
+        logs = np.flatnonzero(machines == machine)
+        order = logs[np.argsort(starts[logs], kind="stable")]
         later, earlier = starts[order][1:], ends[order][:-1]
         if np.any(later <= starts[order][:-1]) or np.any(later < earlier):
             return False
@@ -395,9 +395,9 @@ class QuantityTests:
 
     def get_series(self, m: int, i: int) -> PeriodSeries:
         """Returns a quantity of a machine."""
-        log_indices = self.find_logs(m, i)
-        values, sigmas = self.values[log_indices, i], self.sigmas[log_indices, i]
-        return PeriodSeries(self.at[log_indices], values, sigmas)
+        logs = self.find_logs(m, i)
+        values, sigmas = self.values[logs, i], self.sigmas[logs, i]
+        return PeriodSeries(self.at[logs], values, sigmas)
 
     def find_smallest_drift(self, i: int) -> float | None:
         """Finds the smallest straight drift that the best observed machine would show."""
@@ -462,17 +462,15 @@ def _apply_loads(tests: QuantityTests, layout: FleetLayout, fit: FleetFit) -> Qu
     values, sigmas = tests.values.copy(), tests.sigmas.copy()
     first, loaded = len(layout.drift_columns), set[int]()
     for m in range(tests.machine_count):
-        log_indices = np.flatnonzero(tests.machine == m)
-        gain, with_load = (
-            sum(fits[k].misfit for k in log_indices) for fits in (fit.logs, fit.load_fits)
-        )
+        logs = np.flatnonzero(tests.machine == m)
+        gain, with_load = (sum(fits[k].misfit for k in logs) for fits in (fit.logs, fit.load_fits))
         if m not in suspects or gain <= with_load:
             continue
         loaded.add(m)
-        for k in log_indices:
+        for k in logs:
             values[k, :first] = fit.load_fits[k].values[:first]
             sigmas[k, :first] = fit.load_fits[k].sigmas[:first]
-        values[log_indices, first:load] = np.nan
+        values[logs, first:load] = np.nan
     machines = frozenset(loaded)
     return dataclasses.replace(tests, values=values, sigmas=sigmas, loaded_machines=machines)
 
@@ -515,11 +513,11 @@ def _remove_gains(tests: QuantityTests) -> QuantityTests:
     """Friction and offset of joints whose gain drifts, or is apart, in units without that."""
     values, sigmas = tests.values.copy(), tests.sigmas.copy()
     for (m, g), scale in _compute_gain_scales(tests).items():
-        log_indices = tests.find_logs(m, g)
+        logs = tests.find_logs(m, g)
         for i, each in enumerate(tests.quantities):
             if each.place == tests.quantities[g].place and each.column >= 0 and each.is_of_joint:
-                values[log_indices, i] /= scale
-                sigmas[log_indices, i] /= scale
+                values[logs, i] /= scale
+                sigmas[logs, i] /= scale
     return dataclasses.replace(tests, values=values, sigmas=sigmas)
 
 

@@ -112,8 +112,8 @@ class FittedPlant:
         away = _add_creep(C, qd)
         if dry is None:
             dry = self._estimate_dry_bounds(M, C, q, away, qdd, s)
-        dry_friction = np.einsum("bkn,bk->bn", C, dry * np.sign(_compute_shaft_speeds(C, away)))
-        return Forces(M, self._compute_smooth_part(M, q, away, qdd, s) - dry_friction, C, dry)
+        friction = np.einsum("bkn,bk->bn", C, dry * np.sign(_compute_shaft_speeds(C, away)))
+        return Forces(M, self._compute_smooth_part(M, q, away, qdd, s) - friction, C, dry)
 
     def compute_smooth_forces(
         self, forces: Forces, q: np.ndarray, qd: np.ndarray, s: np.ndarray | None
@@ -125,10 +125,8 @@ class FittedPlant:
         M = self.model.inertia_matrix(q, self.beta)
         rest = self._compute_smooth_part(M, q, qd, np.zeros_like(q), s)
         C = forces.C if self.model.spec.closure is None else self.compute_shaft_directions(q)
-        dry_friction = np.einsum(
-            "bkn,bk->bn", C, forces.dry * np.sign(_compute_shaft_speeds(C, qd))
-        )
-        return M, rest - dry_friction
+        friction = np.einsum("bkn,bk->bn", C, forces.dry * np.sign(_compute_shaft_speeds(C, qd)))
+        return M, rest - friction
 
     def compute_shaft_directions(self, q: np.ndarray) -> np.ndarray:
         """Returns (b, k, n) rows of C."""

@@ -89,12 +89,10 @@ def _evaluate_controlled_run(
     has_given_gains: bool,
 ) -> ControlledRun:
     motions = robot.simulate_motions(beta, loop)
-    whole_samples = [segment.whole for segment in robot.segments]
-    q = np.concatenate([s.q[mask] for s, mask in zip(robot.segments, whole_samples, strict=True)])
-    simulated = np.concatenate([m[0][mask] for m, mask in zip(motions, whole_samples, strict=True)])
-    wanted = np.concatenate(
-        [r[0][mask] for r, mask in zip(robot.references, whole_samples, strict=True)]
-    )
+    whole = [segment.whole for segment in robot.segments]
+    q = np.concatenate([s.q[mask] for s, mask in zip(robot.segments, whole, strict=True)])
+    simulated = np.concatenate([m[0][mask] for m, mask in zip(motions, whole, strict=True)])
+    wanted = np.concatenate([r[0][mask] for r, mask in zip(robot.references, whole, strict=True)])
     rows, torque = observation.row_joint, robot.evaluate_columns(motions) @ beta
     fit, tracking, effort = (dict[str, float | None]() for _ in range(3))
     for j, joint in enumerate(observation.joints):
@@ -275,12 +273,10 @@ def _apply_dry_friction(
     sliding = np.sign(speeds) * (dry > 0.0)
     after = speeds - np.einsum("bkl,bl->bk", taken, sliding)
     turns = ((np.sign(after) != sliding) & (dry > 0.0)).any(axis=1)
-    friction_shares = sliding
+    shares = sliding
     if turns.any():
-        friction_shares[turns] = _relax_friction(
-            speeds[turns], taken[turns], dry[turns] > 0.0, pull[turns]
-        )
-    return free - np.einsum("bnk,bk->bn", way, friction_shares), friction_shares
+        shares[turns] = _relax_friction(speeds[turns], taken[turns], dry[turns] > 0.0, pull[turns])
+    return free - np.einsum("bnk,bk->bn", way, shares), shares
 
 
 def _relax_friction(
@@ -529,11 +525,9 @@ def _simulate_windows(
     for start, ours, theirs in zip(starts, simulated, measured, strict=True):
         segment = field.segments[start.segment]
         count = min(len(ours), round(window / segment.step) + 1)
-        window_rows = slice(start.first, start.first + count)
-        paths.append(
-            Path(str(segment.run), segment.time[window_rows], theirs[:count], ours[:count])
-        )
-        gone = segment.time[window_rows] - segment.time[start.first]
+        rows = slice(start.first, start.first + count)
+        paths.append(Path(str(segment.run), segment.time[rows], theirs[:count], ours[:count]))
+        gone = segment.time[rows] - segment.time[start.first]
         straight.append(theirs[0] + gone[:, None] * segment.qd[start.first])
     return _RunWindows(
         tuple(paths),

@@ -6,18 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from modeler.core import figure as fig
 from modeler.core.brief import ShortRepr
-from modeler.core.figure import (
-    BLACK,
-    GREY,
-    ORANGE,
-    VERMILLION,
-    Curve,
-    Panel,
-    Picture,
-    Style,
-    thin_curves,
-)
 from modeler.core.json import convert_to_plain, select_attributes
 from modeler.core.result import Result
 from modeler.core.table import DIGITS, format_percent
@@ -201,22 +191,22 @@ def _format_percent(value: float | None) -> str:
 # Pictures of a free run: one a joint.
 
 
-_MEASURED = Style(BLACK, width=1.1)
-_SIMULATED = Style(ORANGE, width=1.6, opacity=0.9)
-_ERROR = Style(VERMILLION, width=1.0)
-_BOUND = Style(GREY, width=1.0, dash=True)
+_MEASURED = fig.Style(fig.BLACK, width=1.1)
+_SIMULATED = fig.Style(fig.ORANGE, width=1.6, opacity=0.9)
+_ERROR = fig.Style(fig.VERMILLION, width=1.0)
+_BOUND = fig.Style(fig.GREY, width=1.0, dash=True)
 
 
-def draw_free_run_pictures(result: FreeRun) -> tuple[Picture, ...]:
+def draw_free_run_pictures(result: FreeRun) -> tuple[fig.Picture, ...]:
     """Draws positions above, their error below, window after window, of every joint."""
     return tuple(draw_free_run_picture(result, j) for j in range(len(result.joints)))
 
 
-def draw_free_run_picture(result: FreeRun, j: int) -> Picture:
+def draw_free_run_picture(result: FreeRun, j: int) -> fig.Picture:
     """Draws the position of joint `j` above, its error below."""
     joint = result.joints[j]
     above, below = _build_panels(result, j)
-    return Picture(
+    return fig.Picture(
         name=f"joint_{joint.name}_free_run",
         title=f"Joint {joint.name}: measured and free-running position",
         caption=(
@@ -232,30 +222,30 @@ def draw_free_run_picture(result: FreeRun, j: int) -> Picture:
     )
 
 
-def _build_panels(result: FreeRun, j: int) -> tuple[Panel, Panel]:
+def _build_panels(result: FreeRun, j: int) -> tuple[fig.Panel, fig.Panel]:
     unit = result.joints[j].unit
     time, measured, simulated = _concatenate_windows(result, j)
     error = simulated - measured
-    plot_rows = thin_curves((measured, simulated, error))
+    plot_rows = fig.thin_curves((measured, simulated, error))
     bound, ends = result.bound * float(result.ranges[j]), time[[0, -2]]
     one = len(result.logs) == 1
     label = f"time in {result.logs[0]} [s]" if one else "time, logs one after the other [s]"
     bounds = [
-        Curve("bound", ends, np.full(2, sign * bound), _BOUND)
+        fig.Curve("bound", ends, np.full(2, sign * bound), _BOUND)
         for sign in (1.0, -1.0)
         if np.isfinite(bound)
     ]
     curves = (
-        Curve("measured", time[plot_rows], measured[plot_rows], _MEASURED),
-        Curve("simulated", time[plot_rows], simulated[plot_rows], _SIMULATED),
+        fig.Curve("measured", time[plot_rows], measured[plot_rows], _MEASURED),
+        fig.Curve("simulated", time[plot_rows], simulated[plot_rows], _SIMULATED),
     )
     return (
-        Panel("Position", label, f"position [{unit}]", curves),
-        Panel(
+        fig.Panel("Position", label, f"position [{unit}]", curves),
+        fig.Panel(
             "Error",
             label,
             f"error [{unit}]",
-            (Curve("error", time[plot_rows], error[plot_rows], _ERROR), *bounds),
+            (fig.Curve("error", time[plot_rows], error[plot_rows], _ERROR), *bounds),
             zero=True,
         ),
     )

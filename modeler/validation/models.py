@@ -232,10 +232,8 @@ def predict_together(
             "one to see why"
         )
     # what counts for one model alone is masked unnamed
-    common_predictions = [
-        dataclasses.replace(prediction, used=used, full=None) for prediction in predictions
-    ]
-    return common_predictions, [observation for _, observation in made]
+    common = [dataclasses.replace(p, used=used, full=None) for p in predictions]
+    return common, [observation for _, observation in made]
 
 
 def _has_same_rows(one: Prediction, other: Prediction) -> bool:

@@ -2,35 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLACK,
-    BLUE,
-    COLOR_NAMES,
-    COLORS,
-    GREY,
-    ORANGE,
-    PALE,
-    SHADE,
-    SKY,
-    SLATE,
-    VERMILLION,
-    Band,
-    Bars,
-    Curve,
-    Heat,
-    Means,
-    Panel,
-    Picture,
-    Points,
-    Series,
-    Span,
-    Style,
-    thin_curves,
-    thin_points,
-)
+from modeler.core import figure as fig
 from modeler.core.table import WORDS, format_percent
 from modeler.regression import MASKS, WHY, find_runs
 from modeler.validation.comparison import METHODS, REGIONS, WINDOW, Comparison, JointComparison
@@ -52,14 +28,14 @@ from modeler.validation.thresholds import THRESHOLDS
 GAP = "no rows"
 OTHER = "left out"
 _COLORS = {
-    "low speed": PALE["blue"],
-    "torque at its limit": PALE["orange"],
-    "no good value": PALE["pink"],
-    "impossible derivative": PALE["green"],
-    "filter end": PALE["yellow"],
-    "loops open": PALE["pink"],
-    GAP: PALE["yellow"],
-    OTHER: PALE["brown"],
+    "low speed": fig.PALE["blue"],
+    "torque at its limit": fig.PALE["orange"],
+    "no good value": fig.PALE["pink"],
+    "impossible derivative": fig.PALE["green"],
+    "filter end": fig.PALE["yellow"],
+    "loops open": fig.PALE["pink"],
+    GAP: fig.PALE["yellow"],
+    OTHER: fig.PALE["brown"],
 }
 _WHY = WHY | {
     GAP: "a gap in the log, with the start-up of the filter on either side",
@@ -70,7 +46,7 @@ _CLOSE = 1.0 / 1500.0  # of the axis: segments that no screen shows apart are dr
 
 def find_masked_spans(
     prediction: Prediction, j: int, time: np.ndarray, rows: np.ndarray
-) -> tuple[Span, ...]:
+) -> tuple[fig.Span, ...]:
     """Finds the time spans of joint j that do not count, by reason.
 
     Args:
@@ -97,7 +73,7 @@ def find_masked_spans(
             ]
         )
         if ends:
-            spans.append(Span(name, _join_intervals(np.array(ends), close), _COLORS[name]))
+            spans.append(fig.Span(name, _join_intervals(np.array(ends), close), _COLORS[name]))
     return tuple(spans)
 
 
@@ -105,13 +81,13 @@ def describe_masks(prediction: Prediction, j: int) -> str:
     """Describes the reason of each colour and its number of rows; "" where every row counts."""
     reasons, rows = _find_mask_reasons(prediction, j), prediction.time.size
     sentences = [
-        f"{COLOR_NAMES[color]}, {name}: {_WHY[name]} ({int(np.sum(reasons == name))} of {rows} "
+        f"{fig.COLOR_NAMES[color]}, {name}: {_WHY[name]} ({int(np.sum(reasons == name))} of {rows} "
         "rows)"
         for name, color in _COLORS.items()
         if np.any(reasons == name)
     ]
     if _find_gaps(prediction, prediction.time, np.arange(rows), 0.0):
-        sentences.append(f"{COLOR_NAMES[_COLORS[GAP]]}, {GAP}: {_WHY[GAP]}")
+        sentences.append(f"{fig.COLOR_NAMES[_COLORS[GAP]]}, {GAP}: {_WHY[GAP]}")
     return f"Shaded rows do not count: {'; '.join(sentences)}." if sentences else ""
 
 
@@ -127,9 +103,7 @@ def _find_mask_reasons(prediction: Prediction, j: int) -> np.ndarray:
 def _find_runs(flags: np.ndarray, whole: np.ndarray) -> list[tuple[int, int]]:
     """First and last of each run of True within one segment."""
     pieces = np.split(np.arange(len(flags)), np.flatnonzero(np.diff(whole)) + 1)
-    return [
-        (int(piece[a]), int(piece[b - 1])) for piece in pieces for a, b in find_runs(flags[piece])
-    ]
+    return [(int(rows[a]), int(rows[b - 1])) for rows in pieces for a, b in find_runs(flags[rows])]
 
 
 def _find_gaps(
@@ -150,13 +124,13 @@ def _join_intervals(ends: np.ndarray, close: float) -> np.ndarray:
     return np.column_stack([ends[first, 0], ends[last, 1]])
 
 
-_MEASURED = Style(BLACK, width=1.1)
-_PREDICTED = Style(ORANGE, width=1.6, opacity=0.9)
-_RESIDUAL = Style(VERMILLION, width=1.0)
-_BAND = Style(SKY, opacity=0.45)
+_MEASURED = fig.Style(fig.BLACK, width=1.1)
+_PREDICTED = fig.Style(fig.ORANGE, width=1.6, opacity=0.9)
+_RESIDUAL = fig.Style(fig.VERMILLION, width=1.0)
+_BAND = fig.Style(fig.SKY, opacity=0.45)
 
 
-def draw_time_picture(prediction: Prediction, item: JointComparison) -> Picture:
+def draw_time_picture(prediction: Prediction, item: JointComparison) -> fig.Picture:
     """Draws torques above, residual below; all logs left, worst window right."""
     window, time = item.worst, prediction.time
     is_in_segment = prediction.segment == window.segment
@@ -177,7 +151,7 @@ def draw_time_picture(prediction: Prediction, item: JointComparison) -> Picture:
     )
     here, close = (start, start + window.end - window.start), (window.start, window.end)
     name = item.joint.name
-    return Picture(
+    return fig.Picture(
         name=f"joint_{name}_time",
         title=f"Joint {name}: measured and predicted torque",
         caption=" ".join(_write_caption(prediction, item)),
@@ -198,7 +172,7 @@ def _write_caption(prediction: Prediction, item: JointComparison) -> list[str]:
         f"Above: measured ({_MEASURED.description}) and predicted ({_PREDICTED.description}) "
         f"{what}; where you see no {_MEASURED.description}, they agree. Below "
         f"({_RESIDUAL.description}): the difference, on its own, finer scale. Shaded "
-        f"{COLOR_NAMES[SHADE]} from top to bottom: the {WINDOW} s with the largest squared "
+        f"{fig.COLOR_NAMES[fig.SHADE]} from top to bottom: the {WINDOW} s with the largest squared "
         "residual, enlarged on the right."
     ]
     if prediction.sigma is not None:
@@ -240,6 +214,44 @@ def break_at_gaps(
     return np.insert(x, places, x[places]), np.insert(y, places, np.nan)
 
 
+def build_torque_panels(
+    title: str,
+    label: str,
+    unit: str,
+    above: Sequence[fig.Series],
+    below: Sequence[fig.Series],
+    **both: Any,
+) -> tuple[fig.Panel, fig.Panel]:
+    """Builds the panels of torques over time: measured and predicted above, residuals below.
+
+    Args:
+        title: of the panel above.
+        label: of the time.
+        unit: of the effort of the joint.
+        above: what is drawn of the torques.
+        below: what is drawn of the residuals.
+        both: other fields of either panel.
+    """
+    return (
+        fig.Panel(title, label, f"{WORDS[unit]} [{unit}]", tuple(above), **both),
+        fig.Panel(
+            f"{title}: residual" if title else "",
+            label,
+            f"residual [{unit}]",
+            tuple(below),
+            zero=True,
+            **both,
+        ),
+    )
+
+
+def build_time_curve(
+    label: str, segment: np.ndarray, time: np.ndarray, values: np.ndarray, style: fig.Style
+) -> fig.Curve:
+    """Builds a curve over time that no line carries over a gap between segments."""
+    return fig.Curve(label, *break_at_gaps(segment, time, values), style)
+
+
 def _build_column(
     prediction: Prediction,
     item: JointComparison,
@@ -248,34 +260,32 @@ def _build_column(
     title: str,
     label: str,
     banded: bool = False,
-) -> tuple[Panel, Panel]:
-    unit, joint = item.joint.effort_unit, item.index
+) -> tuple[fig.Panel, fig.Panel]:
+    joint = item.index
     curves = (
         prediction.measured[rows, joint].astype(float),
         prediction.predicted[rows, joint].astype(float),
         compute_residual(prediction)[rows, joint],
     )
-    plot_rows = thin_curves(curves)
+    shown = fig.thin_curves(curves)
+    segment, t = prediction.segment[rows][shown], time[rows][shown]
     labels = ("measured", "predicted", "residual")
     styles = (_MEASURED, _PREDICTED, _RESIDUAL)
-    series: list[Series] = []
-    for text, values, style in zip(labels, curves, styles, strict=True):
-        x, y = break_at_gaps(
-            prediction.segment[rows][plot_rows], time[rows][plot_rows], values[plot_rows]
-        )
-        series.append(Curve(text, x, y, style))
-    spans = find_masked_spans(prediction, joint, time, rows)
-    bands = _build_bands(prediction, joint, rows[plot_rows], time) if banded else ()
-    left = (*bands[1:], series[2])
-    return (
-        Panel(title, label, f"{WORDS[unit]} [{unit}]", (*bands[:1], *series[:2]), spans=spans),
-        Panel(f"{title}: residual", label, f"residual [{unit}]", left, zero=True, spans=spans),
+    *above, below = (
+        build_time_curve(text, segment, t, values[shown], style)
+        for text, values, style in zip(labels, curves, styles, strict=True)
     )
+    spans = find_masked_spans(prediction, joint, time, rows)
+    bands = _build_bands(prediction, joint, rows[shown], time) if banded else ()
+    torques: list[fig.Series] = [*bands[:1], *above]
+    residuals: list[fig.Series] = [*bands[1:], below]
+    unit = item.joint.effort_unit
+    return build_torque_panels(title, label, unit, torques, residuals, spans=spans)
 
 
 def _build_bands(
     prediction: Prediction, joint: int, rows: np.ndarray, time: np.ndarray
-) -> tuple[Band, ...]:
+) -> tuple[fig.Band, ...]:
     """About the prediction, and about zero."""
     if prediction.sigma is None:
         return ()
@@ -284,7 +294,7 @@ def _build_bands(
     for middle in (prediction.predicted[rows, joint], np.zeros(rows.size)):
         x, low = break_at_gaps(prediction.segment[rows], time[rows], middle - half)
         _, high = break_at_gaps(prediction.segment[rows], time[rows], middle + half)
-        bands.append(Band("95 % band of the prediction", x, low, high, _BAND))
+        bands.append(fig.Band("95 % band of the prediction", x, low, high, _BAND))
     return tuple(bands)
 
 
@@ -293,15 +303,15 @@ def _build_bands(
 
 _DOTS = 700
 _BINS = 24
-_CLOUD = Style(GREY, width=2.6, opacity=0.45)
-_MEAN = Style(BLUE, width=1.6)
-_BACK = Style(VERMILLION, width=1.6)
-_FLOOR = Style(ORANGE, width=1.2, dash=True)
-_WAVES = Style(BLUE, width=0.8)
+_CLOUD = fig.Style(fig.GREY, width=2.6, opacity=0.45)
+_MEAN = fig.Style(fig.BLUE, width=1.6)
+_BACK = fig.Style(fig.VERMILLION, width=1.6)
+_FLOOR = fig.Style(fig.ORANGE, width=1.2, dash=True)
+_WAVES = fig.Style(fig.BLUE, width=0.8)
 _ACROSS = 3  # panels side by side
 
 
-def draw_residual_picture(prediction: Prediction, item: JointComparison) -> Picture:
+def draw_residual_picture(prediction: Prediction, item: JointComparison) -> fig.Picture:
     """Draws a panel for each coordinate of the logs, then both spectra."""
     drawn = [
         _build_coordinate_panel(prediction, item, coordinate.id, coordinate.label)
@@ -313,7 +323,7 @@ def draw_residual_picture(prediction: Prediction, item: JointComparison) -> Pict
     drawn += [_EMPTY] * (-len(drawn) % _ACROSS)
     rows = [tuple(drawn[k : k + _ACROSS]) for k in range(0, len(drawn), _ACROSS)]
     name = item.joint.name
-    return Picture(
+    return fig.Picture(
         name=f"joint_{name}_residual",
         title=f"Joint {name}: does the residual still have structure?",
         caption=f"{_FIRST}{_HEATED if heated else ''} {_LAST}",
@@ -322,7 +332,7 @@ def draw_residual_picture(prediction: Prediction, item: JointComparison) -> Pict
     )
 
 
-_EMPTY = Panel("", "", "", ())
+_EMPTY = fig.Panel("", "", "", ())
 
 
 _FIRST = (
@@ -378,7 +388,7 @@ def compute_binned_means(x: np.ndarray, e: np.ndarray) -> tuple[np.ndarray, np.n
 
 def _build_coordinate_panel(
     prediction: Prediction, item: JointComparison, coordinate: str, label: str
-) -> Panel:
+) -> fig.Panel:
     rows = prediction.used[:, item.index]
     e = (prediction.measured - prediction.predicted)[rows, item.index]
     if coordinate == "time":
@@ -386,54 +396,76 @@ def _build_coordinate_panel(
         x, label = whole[rows], "time, all logs"
     else:
         x, marks = evaluate_coordinate(prediction, item.index, coordinate)[rows], ()
-    plot_rows = thin_points(x, e, _DOTS)
     title = label[0].upper() + label[1:]
     if item.structure is not None:
         title = f"{title}: {format_percent(item.structure.get_share(coordinate))}"
     if coordinate == "temperature":
         means = _average_by_direction(x, e, prediction.qd[rows, item.index])
     else:
-        means = (Means("mean, 2 standard errors", *compute_binned_means(x, e), _MEAN),)
-    return Panel(
-        title=title,
-        x_label=f"{label} [{format_coordinate_unit(prediction, item.index, coordinate)}]",
-        y_label=f"residual [{item.joint.effort_unit}]",
-        series=(Points("samples", x[plot_rows], e[plot_rows], _CLOUD), *means),
-        marks=tuple((place, "") for place, _ in marks[1:]),
-        zero=True,
+        means = (build_means("", x, e, _MEAN),)
+    return build_residual_panel(
+        title,
+        f"{label} [{format_coordinate_unit(prediction, item.index, coordinate)}]",
+        item.joint.effort_unit,
+        (build_cloud("samples", x, e, _CLOUD, _DOTS), *means),
+        tuple((place, "") for place, _ in marks[1:]),
     )
 
 
-def _average_by_direction(x: np.ndarray, e: np.ndarray, qd: np.ndarray) -> tuple[Means, ...]:
+def build_residual_panel(
+    title: str,
+    label: str,
+    unit: str,
+    series: Sequence[fig.Series],
+    marks: tuple[tuple[float, str], ...] = (),
+) -> fig.Panel:
+    """Builds the panel of a residual over a coordinate, whose label has a unit."""
+    return fig.Panel(title, label, f"residual [{unit}]", tuple(series), marks=marks, zero=True)
+
+
+def build_cloud(
+    label: str, x: np.ndarray, e: np.ndarray, style: fig.Style, most: int
+) -> fig.Points:
+    """Builds at most so many samples of a residual as dots."""
+    shown = fig.thin_points(x, e, most)
+    return fig.Points(label, x[shown], e[shown], style)
+
+
+def build_means(label: str, x: np.ndarray, e: np.ndarray, style: fig.Style) -> fig.Means:
+    """Builds the means of bins of a residual, with two standard errors."""
+    return fig.Means(f"{label} mean, 2 standard errors".strip(), *compute_binned_means(x, e), style)
+
+
+def _average_by_direction(x: np.ndarray, e: np.ndarray, qd: np.ndarray) -> tuple[fig.Means, ...]:
     """A line of means for either direction of motion that occurs."""
     ways = (
         ("moving in the positive direction", qd > 0.0, _MEAN),
         ("moving in the negative direction", qd < 0.0, _BACK),
     )
     return tuple(
-        Means(text, *compute_binned_means(x[direction_rows], e[direction_rows]), style)
+        fig.Means(text, *compute_binned_means(x[direction_rows], e[direction_rows]), style)
         for text, direction_rows, style in ways
         if direction_rows.any()
     )
 
 
-def _build_spectrum_panel(item: JointComparison) -> Panel:
+def _build_spectrum_panel(item: JointComparison) -> fig.Panel:
     unit = item.joint.effort_unit
     spectrum = item.spectrum
     title, shown = "Spectrum", (np.array([np.nan]), np.array([np.nan]))
     if spectrum is not None:
         shown = spectrum.frequency, spectrum.density
         title += f": {format_percent(spectrum.peak_share)} of the power near {spectrum.peak:.3g} Hz"
-    return Panel(
+    return fig.Panel(
         title=title,
         x_label="frequency [Hz]",
         y_label=f"density [({unit})^2/Hz]",
-        series=(Curve("residual", *shown, _MEAN),),
+        series=(fig.Curve("residual", *shown, _MEAN),),
         scale="log",
     )
 
 
-def _build_order_panel(item: JointComparison) -> Panel:
+def _build_order_panel(item: JointComparison) -> fig.Panel:
     unit, nothing = item.joint.effort_unit, np.array([np.nan])
     title, per = "Order spectrum", "turn" if item.joint.unit == "rad" else "m"
     if item.orders is None:
@@ -441,16 +473,16 @@ def _build_order_panel(item: JointComparison) -> Panel:
     else:
         x, _ = convert_orders(item.orders, item.joint.unit)
         y, floor = item.orders.amplitude, item.orders.floor
-        plot_rows = thin_curves((y,))
+        plot_rows = fig.thin_curves((y,))
         x, y, floor = x[plot_rows], y[plot_rows], floor[plot_rows]
         order_peaks = find_order_peaks(item.orders, item.joint.unit)
         if order_peaks:
             title += f": {order_peaks[0].waves:.4g} waves per {per}"
-    return Panel(
+    return fig.Panel(
         title=title,
         x_label=f"waves per {per} of the joint [1/{per}]",
         y_label=f"amplitude [{unit}]",
-        series=(Curve("residual", x, y, _WAVES), Curve("floor", x, floor, _FLOOR)),
+        series=(fig.Curve("residual", x, y, _WAVES), fig.Curve("floor", x, floor, _FLOOR)),
         scale="log",
     )
 
@@ -461,22 +493,24 @@ def _build_order_panel(item: JointComparison) -> Panel:
 _READABLE = 8.0  # percent: a shorter segment of a bar has no room for its number
 
 
-def draw_overview_picture(comparison: Comparison) -> Picture:
+def draw_overview_picture(comparison: Comparison) -> fig.Picture:
     """Draws relative errors, velocity regions, variance shares, coordinates and other joints."""
     names = tuple(item.joint.name for item in comparison.joints)
     errors = np.array([100.0 * item.relative_error for item in comparison.joints])
-    bars = Bars("relative error", names, errors, tuple(f"{e:.1f}" for e in errors), Style(BLUE))
+    bars = fig.Bars(
+        "relative error", names, errors, tuple(f"{e:.1f}" for e in errors), fig.Style(fig.BLUE)
+    )
     where, regions = "Where: share of squared residual [%]", (_build_region_heatmap(comparison),)
-    error = Panel("Relative error", "joint", "||residual|| / ||torque|| [%]", (bars,))
-    panels = [(error, Panel(where, "velocity", "joint", regions))]
+    error = fig.Panel("Relative error", "joint", "||residual|| / ||torque|| [%]", (bars,))
+    panels = [(error, fig.Panel(where, "velocity", "joint", regions))]
     if any(item.shares is not None for item in comparison.joints):
         panels.append(build_share_panels(comparison))
     if any(item.structure is not None for item in comparison.joints):
         single, across = _build_share_heatmap(comparison), _build_cross_joint_heatmap(comparison)
         title = "Follows the velocity of ... [%]"
-        first = Panel("Follows its own ... [%]", "coordinate", "joint", (single,))
-        panels.append((first, Panel(title, "joint or motor moving", "joint", (across,))))
-    return Picture(
+        first = fig.Panel("Follows its own ... [%]", "coordinate", "joint", (single,))
+        panels.append((first, fig.Panel(title, "joint or motor moving", "joint", (across,))))
+    return fig.Picture(
         name="overview",
         title="All joints",
         caption=_write_overview_caption(comparison),
@@ -502,7 +536,7 @@ def _write_overview_caption(comparison: Comparison) -> str:
     )
 
 
-def _build_region_heatmap(comparison: Comparison) -> Heat:
+def _build_region_heatmap(comparison: Comparison) -> fig.Heat:
     energy = np.array([[r.energy_share for r in item.regions] for item in comparison.joints])
     texts = tuple(
         tuple(
@@ -512,10 +546,10 @@ def _build_region_heatmap(comparison: Comparison) -> Heat:
         for item in comparison.joints
     )
     names = tuple(item.joint.name for item in comparison.joints)
-    return Heat("share of squared residual", REGIONS, names, 100.0 * energy, texts, top=100.0)
+    return fig.Heat("share of squared residual", REGIONS, names, 100.0 * energy, texts, top=100.0)
 
 
-def _build_share_heatmap(comparison: Comparison) -> Heat:
+def _build_share_heatmap(comparison: Comparison) -> fig.Heat:
     held = {
         coordinate.id
         for item in comparison.joints
@@ -530,7 +564,7 @@ def _build_share_heatmap(comparison: Comparison) -> Heat:
     )
 
 
-def _build_cross_joint_heatmap(comparison: Comparison) -> Heat:
+def _build_cross_joint_heatmap(comparison: Comparison) -> fig.Heat:
     prediction = comparison.prediction
     columns = (
         *(f"joint {info.name}" for info in prediction.joints),
@@ -547,7 +581,7 @@ def _build_heatmap(
     comparison: Comparison,
     columns: tuple[str, ...],
     shares: Callable[[ResidualStructure], list[float]],
-) -> Heat:
+) -> fig.Heat:
     """Shares of each joint's residual; nothing where too few samples show."""
     joints = comparison.joints
     values = np.array(
@@ -558,10 +592,10 @@ def _build_heatmap(
     )
     texts = tuple(tuple("" if np.isnan(v) else f"{100 * v:.0f}" for v in row) for row in values)
     names = tuple(item.joint.name for item in joints)
-    return Heat("explained share", columns, names, 100.0 * values, texts, top=100.0)
+    return fig.Heat("explained share", columns, names, 100.0 * values, texts, top=100.0)
 
 
-def build_share_panels(comparison: Comparison) -> tuple[Panel, Panel]:
+def build_share_panels(comparison: Comparison) -> tuple[fig.Panel, fig.Panel]:
     """Builds the shares of the torque's variance, and those of the residual's."""
     items = [item for item in comparison.joints if item.shares is not None]
     names = tuple(item.joint.name for item in items)
@@ -571,13 +605,13 @@ def build_share_panels(comparison: Comparison) -> tuple[Panel, Panel]:
     explained = np.array([100.0 * max(0.0, each.explained_share) for each in variance_shares])
     left = 100.0 - explained
     systematic = left * repeats / 100.0
-    repeatable, first = "repeatable, not explained", [("explained", explained, BLUE)]
-    whole = [(repeatable, systematic, VERMILLION), ("noise", left - systematic, SLATE)]
-    rest = [(repeatable, repeats, VERMILLION), ("noise", 100.0 - repeats, SLATE)]
+    repeatable, first = "repeatable, not explained", [("explained", explained, fig.BLUE)]
+    whole = [(repeatable, systematic, fig.VERMILLION), ("noise", left - systematic, fig.SLATE)]
+    rest = [(repeatable, repeats, fig.VERMILLION), ("noise", 100.0 - repeats, fig.SLATE)]
     title, label = "Variance of the torque [%]", "share of the variance [%]"
     return (
-        Panel(title, "joint", label, _build_stacked_bars(names, first + whole)),
-        Panel(
+        fig.Panel(title, "joint", label, _build_stacked_bars(names, first + whole)),
+        fig.Panel(
             "Variance that is not explained [%]",
             "joint",
             "share of the residual [%]",
@@ -588,11 +622,11 @@ def build_share_panels(comparison: Comparison) -> tuple[Panel, Panel]:
 
 def _build_stacked_bars(
     names: tuple[str, ...], parts: list[tuple[str, np.ndarray, str]]
-) -> tuple[Bars, ...]:
+) -> tuple[fig.Bars, ...]:
     series, base = [], np.zeros(len(names))
     for label, values, colour in parts:
         texts = tuple(f"{value:.1f}" if value >= _READABLE else "" for value in values)
-        series.append(Bars(label, names, values, texts, Style(colour), base))
+        series.append(fig.Bars(label, names, values, texts, fig.Style(colour), base))
         base = base + values
     return tuple(series)
 
@@ -605,7 +639,7 @@ _MOST = 2500  # points of a curve
 
 def draw_overlay_picture(
     names: Sequence[str], predictions: Sequence[Prediction], j: int
-) -> Picture:
+) -> fig.Picture:
     """Draws residuals of all models against time for one joint, and their sums of squares so far.
 
     Args:
@@ -618,21 +652,26 @@ def draw_overlay_picture(
     left = tuple(compute_residual(prediction)[:, j] for prediction in predictions)
     sums = [np.cumsum(np.nan_to_num(e) ** 2) for e in left]
     whole = max(float(total[-1]) for total in sums) or 1.0
-    plot_rows, segment = thin_curves(left, _MOST), first.segment
+    plot_rows, segment = fig.thin_curves(left, _MOST), first.segment
     even = np.unique(np.linspace(0, time.size - 1, _MOST // 2).astype(int))
-    styles = [Style(COLORS[k % len(COLORS)], width=1.1, opacity=0.8) for k in range(len(names))]
+    styles = [
+        fig.Style(fig.COLORS[k % len(fig.COLORS)], width=1.1, opacity=0.8)
+        for k in range(len(names))
+    ]
     residuals, gains = [], []
     for name, style, e, total in zip(names, styles, left, sums, strict=True):
         curve = break_at_gaps(segment[plot_rows], time[plot_rows], e[plot_rows])
-        residuals.append(Curve(name, *curve, style))
-        gains.append(Curve(name, time[even], 100.0 * total[even] / whole, style))
+        residuals.append(fig.Curve(name, *curve, style))
+        gains.append(fig.Curve(name, time[even], 100.0 * total[even] / whole, style))
     spans = find_masked_spans(first, j, time, np.arange(time.size))
     unit = f"residual [{joint.effort_unit}]"
-    above = Panel("Residual", label, unit, tuple(residuals), marks=marks, zero=True, spans=spans)
-    below = Panel("Squared residual so far", label, "sum [%]", tuple(gains), marks=marks)
+    above = fig.Panel(
+        "Residual", label, unit, tuple(residuals), marks=marks, zero=True, spans=spans
+    )
+    below = fig.Panel("Squared residual so far", label, "sum [%]", tuple(gains), marks=marks)
     caption = _write_overlay_caption(names, styles, describe_masks(first, j))
     title = f"Joint {joint.name}: what each model leaves"
-    return Picture(
+    return fig.Picture(
         f"joint_{joint.name}_models",
         title,
         caption,
@@ -643,7 +682,7 @@ def draw_overlay_picture(
     )
 
 
-def _write_overlay_caption(names: Sequence[str], styles: Sequence[Style], masks: str) -> str:
+def _write_overlay_caption(names: Sequence[str], styles: Sequence[fig.Style], masks: str) -> str:
     pairs = zip(names, styles, strict=True)
     said = ", ".join(f"{style.description.capitalize()}: {name}" for name, style in pairs)
     return (

@@ -180,9 +180,7 @@ def predict_every_row(
             s.q, s.qd, s.qdd, model.beta, regression.compute_signals(compiled, s)
         )
         rows = np.flatnonzero((at >= s.time[0] - 0.5 * s.step) & (at <= s.time[-1] + 0.5 * s.step))
-        torque[rows] = np.column_stack(
-            [np.interp(at[rows], s.time, joint_torque) for joint_torque in tau.T]
-        )
+        torque[rows] = np.column_stack([np.interp(at[rows], s.time, effort) for effort in tau.T])
         sure[rows] = np.interp(at[rows], s.time, s.whole) > 1.0 - 1e-9
     return torque, sure
 

@@ -2,15 +2,17 @@
 
 import math
 import statistics
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
+from operator import attrgetter
 
 import numpy as np
 
 from modeler import validation
 from modeler.core.figure import Picture
 from modeler.core.result import Figures, Presentation, Tables
-from modeler.core.table import Cell, Table, format_percent
+from modeler.core.table import Cell, Column, Table, format_percent
 from modeler.views import page
 from modeler.views.figures import collect_figures
 
@@ -105,26 +107,33 @@ def _draw_model_picture(
     )
 
 
-def _tabulate_errors(comparison: validation.ModelComparison) -> page.PageTable:
-    top = max((e for item in comparison.joints for e in item.errors), default=0.0) or 1.0
-    rows: list[list[str | page.PageCell]] = [
-        [
-            page.PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
-            *(page.PageCell(format_percent(e), e / top) for e in item.errors),
-            "-" if item.best is None else comparison.names[item.best],
-            f"{item.p_value:.2g}" if item.p_value >= 1e-6 else "under 1e-6",
-        ]
-        for item in comparison.joints
+def _build_model_columns(comparison: validation.ModelComparison) -> list[Column]:
+    def read(k: int) -> Callable[[validation.JointModelComparison], float]:
+        return lambda item: item.errors[k]
+
+    names = comparison.names
+    return [
+        Column("joint", "joint.name"),
+        *(Column(name, read(k), "%", kind="bar") for k, name in enumerate(names)),
+        Column(
+            "significantly best", lambda i: None if i.best is None else names[i.best], kind="text"
+        ),
+        Column(
+            "chance", "p_value", lambda i: f"{i.p_value:.2g}" if i.p_value >= 1e-6 else "under 1e-6"
+        ),
     ]
-    return page.PageTable(
-        ["joint", *comparison.names, "significantly best", "chance"],
-        rows,
+
+
+def _tabulate_errors(comparison: validation.ModelComparison) -> page.PageTable:
+    return page.tabulate(
+        _build_model_columns(comparison),
+        comparison.joints,
         "Relative error: norm of measured minus predicted torque (force) over the norm of what was "
         "measured, each joint by itself, on the rows that count for every model. Chance: that the "
         "best and the next best are equally good, from the spread of the difference between "
         "blocks of time; significant is less than "
         f"{format_percent(validation.THRESHOLDS.max_p_value)}, shared among the alternatives.",
-        dict.fromkeys(comparison.names, "bar") | {"significantly best": "text"},
+        lambda item: f"joint-{item.joint.name}",
     )
 
 
@@ -153,12 +162,12 @@ def draw_joint_pictures(
 
 def draw_all_pictures(comparison: validation.Comparison) -> tuple[Picture, ...]:
     """Draws the overview, then the pictures of each judged joint."""
-    drawn = [
-        picture for item in comparison.joints for picture in draw_joint_pictures(comparison, item)
-    ]
+    drawn = [p for item in comparison.joints for p in draw_joint_pictures(comparison, item)]
     return (validation.draw_overview_picture(comparison), *drawn)
 
 
+_FINER = {"R2": ".4f", "bias": "+.2g"}  # than in a text
+_PAGE_COLUMNS = [replace(c, show=_FINER.get(c.head, c.show)) for c in validation.JOINT_COLUMNS]
 _TAGS = {"pattern": "pattern left", "noise": "noise only", "other": "unclear"}
 _REGION_PHRASES = {
     "fast -": "fast in the negative direction",
@@ -167,10 +176,6 @@ _REGION_PHRASES = {
     "slow +": "slow in the positive direction",
     "fast +": "fast in the positive direction",
 }
-_HEAD = (
-    *("joint", "relative error", "rms residual", "sigma", "rms measured", "largest residual"),
-    *("at", "R\u00b2", "repeatable", "noise", "mean residual", "samples"),
-)
 
 
 def build_comparison_page(
@@ -206,14 +211,14 @@ def build_comparison_page(
 
 def _build_sections(comparison: validation.Comparison) -> list[page.Section]:
     method = " ".join(f"{line}." for line in validation.describe_methods(comparison))
-    table = page.PageTable(
-        _HEAD,
-        [_build_table_row(item, comparison) for item in comparison.joints],
+    table = page.tabulate(
+        _PAGE_COLUMNS,
+        comparison.joints,
         "Relative error is the norm of measured minus predicted torque (force) over the norm of "
         "what was measured, each joint by itself, over the samples that count. R\u00b2 compares "
         "with the best constant. Sigma is the rms standard deviation of the prediction by the "
         "covariance of the fit. " + method,
-        {"relative error": "bar", "at": "text"},
+        link=lambda item: f"joint-{item.joint.name}",
     )
     sections = [
         page.Section(
@@ -308,35 +313,12 @@ def _judge_joints(comparison: validation.Comparison) -> list[page.JudgedLine]:
     return lines
 
 
-def _build_table_row(
-    item: validation.JointComparison, comparison: validation.Comparison
-) -> list[str | page.PageCell]:
-    unit = item.joint.effort_unit
-    top = max(other.relative_error for other in comparison.joints)
-    share = item.relative_error / top if top else 0.0
-    return [
-        page.PageCell(item.joint.name, link=f"joint-{item.joint.name}"),
-        page.PageCell(format_percent(item.relative_error), share),
-        f"{item.rms:.3g} {unit}",
-        "-" if item.predicted_sigma is None else f"{item.predicted_sigma:.2g} {unit}",
-        f"{item.measured_rms:.3g} {unit}",
-        f"{item.largest.value:.3g} {unit}",
-        f"{item.largest.time:.2f} s of {item.largest.log}",
-        validation.format_or_dash(item.r2, ".4f"),
-        format_percent(None if item.shares is None else item.shares.systematic_share),
-        format_percent(None if item.shares is None else item.shares.noise_share),
-        f"{item.bias:+.2g} {unit}",
-        str(item.samples),
-    ]
-
-
 def _tabulate_logs(comparison: validation.Comparison) -> list[page.PageTable]:
     """Relative error of each log and joint; nothing for a single log."""
     if len(comparison.logs) < 2:
         return []
-    head, *rows = validation.tabulate_logs(comparison, "all")
     caption = "Relative error by log: of all joints together (rows stacked), and of each by itself."
-    return [page.PageTable(head, rows, caption)]
+    return [page.tabulate(validation.build_log_columns(comparison), comparison.logs, caption)]
 
 
 # Comparisons and free runs as tables and figures of a notebook.
@@ -351,17 +333,8 @@ def _summarise_model_comparison(comparison: validation.ModelComparison) -> str:
 
 
 def _collect_model_comparison_tables(comparison: validation.ModelComparison) -> Tables:
-    head = ["joint", *comparison.names, "significantly best", "chance"]
-    rows = [
-        (
-            item.joint.name,
-            *item.errors,
-            None if item.best is None else comparison.names[item.best],
-            item.p_value,
-        )
-        for item in comparison.joints
-    ]
-    return {"errors": lambda: Table.build("relative error of each model", head, rows)}
+    columns, title = _build_model_columns(comparison), "relative error of each model"
+    return {"errors": lambda: Table.of_rows(title, columns, comparison.joints)}
 
 
 def _summarise_comparison(comparison: validation.Comparison) -> str:
@@ -370,47 +343,17 @@ def _summarise_comparison(comparison: validation.Comparison) -> str:
 
 
 def _collect_comparison_tables(comparison: validation.Comparison) -> Tables:
+    title = f"{comparison.prediction.robot}: measured against predicted"
+    methods = " ".join(f"{line}." for line in validation.describe_methods(comparison))
+    logs, log_columns = comparison.logs, validation.build_log_columns(comparison)
     return {
-        "errors": lambda: _build_error_table(comparison),
-        "logs": lambda: _build_log_table(comparison),
+        "errors": lambda: Table.of_rows(
+            title, validation.JOINT_COLUMNS, comparison.joints, methods
+        ),
+        "logs": lambda: Table.of_rows("relative error of each log", log_columns, logs),
         "residuals": lambda: _build_residual_table(comparison),
         "torques": lambda: _tabulate_torques(comparison),
     }
-
-
-def _build_error_table(comparison: validation.Comparison) -> Table:
-    rows = [
-        (
-            item.joint.name,
-            item.relative_error,
-            item.rms,
-            item.joint.effort_unit,
-            item.largest.value,
-            item.largest.time,
-            item.largest.log,
-            item.r2,
-            None if item.shares is None else item.shares.systematic_share,
-            None if item.shares is None else item.shares.noise_share,
-            item.bias,
-        )
-        for item in comparison.joints
-    ]
-    return Table.build(
-        f"{comparison.prediction.robot}: measured against predicted",
-        "joint, relative error, rms, unit, largest, at [s], of, R2, repeatable, noise, bias",
-        rows,
-        " ".join(f"{line}." for line in validation.describe_methods(comparison)),
-    )
-
-
-def _build_log_table(comparison: validation.Comparison) -> Table:
-    joints = [f"joint {name}" for name, _ in comparison.logs[0].joints]
-    rows = [
-        (log.log, log.samples, log.relative_error, *(e for _, e in log.joints))
-        for log in comparison.logs
-    ]
-    head = ["log", "samples", "all joints", *joints]
-    return Table.build("relative error of each log", head, rows)
 
 
 def _build_residual_table(comparison: validation.Comparison) -> Table:
@@ -455,34 +398,24 @@ def _collect_comparison_figures(comparison: validation.Comparison) -> Figures:
     return collect_figures(drawn)
 
 
-def _collect_free_run_tables(free_run: validation.FreeRun) -> Tables:
+def _collect_free_run_tables(run: validation.FreeRun) -> Tables:
     return {
         "joints": lambda: Table.build(
-            f"{free_run.robot}: free run in windows of {free_run.window:g} s",
-            "joint, position [%], constant speed [%], whole run [%], horizon [s], "
-            "largest error, unit",
-            [
-                (
-                    j.name,
-                    j.fit,
-                    j.constant_speed_fit,
-                    j.whole_run_fit,
-                    j.horizon,
-                    j.largest_error,
-                    j.unit,
-                )
-                for j in free_run.joints
-            ],
+            f"{run.robot}: free run in windows of {run.window:g} s",
+            "joint, position [%], constant speed [%], whole run [%], horizon [s], largest error, "
+            "unit",
+            map(attrgetter(*_FREE_RUN.split()), run.joints),
             "position: 100 % is the logged one, 0 % its mean",
         )
     }
 
 
-def _collect_free_run_figures(free_run: validation.FreeRun) -> Figures:
-    drawn = [
-        partial(validation.draw_free_run_picture, free_run, j) for j in range(len(free_run.joints))
-    ]
-    names = [f"joint {joint.name}" for joint in free_run.joints]
+_FREE_RUN = "name fit constant_speed_fit whole_run_fit horizon largest_error unit"
+
+
+def _collect_free_run_figures(run: validation.FreeRun) -> Figures:
+    drawn = [partial(validation.draw_free_run_picture, run, j) for j in range(len(run.joints))]
+    names = [f"joint {joint.name}" for joint in run.joints]
     return collect_figures(dict(zip(names, drawn, strict=True)))
 
 

@@ -159,32 +159,26 @@ def _summarise_compiled(compiled: CompiledModel) -> str:
     )
 
 
-def _summarise_modes(home_modes: HomeModes) -> str:
-    robot_mode = (
-        "none"
-        if home_modes.stated_index is None
-        else home_modes.modes[home_modes.stated_index].letter
-    )
-    count = len(home_modes.modes)
+def _summarise_modes(modes: HomeModes) -> str:
+    robot_mode = "none" if modes.stated_index is None else modes.modes[modes.stated_index].letter
+    count = len(modes.modes)
     return (
-        f"{home_modes.linkage.robot.name}: {count} assembly mode{'s' if count > 1 else ''}, the "
+        f"{modes.linkage.robot.name}: {count} assembly mode{'s' if count > 1 else ''}, the "
         f"robot's own: {robot_mode}"
     )
 
 
-def _collect_modes_tables(home_modes: HomeModes) -> Tables:
-    free = home_modes.linkage.free
+def _collect_modes_tables(modes: HomeModes) -> Tables:
+    free = modes.linkage.free
     rows = [
         (mode.letter, mode.singularity_distance, mode.is_within_limits, mode.copy_count, *angles)
-        for mode in home_modes.modes
-        for home in [express_as_home(home_modes.linkage, mode.posture)]
+        for mode in modes.modes
+        for home in [express_as_home(modes.linkage, mode.posture)]
         for angles in [[float(home.get(joint.name, 0.0)) for joint in free]]
     ]
     head = ["mode", "singular value", "within limits", "copies"]
     head += [f"q{joint.name} [{joint.unit}]" for joint in free]
-    return {
-        "modes": lambda: Table.build(f"{home_modes.linkage.robot.name}: assembly modes", head, rows)
-    }
+    return {"modes": lambda: Table.build(f"{modes.linkage.robot.name}: assembly modes", head, rows)}
 
 
 PRESENTATIONS = {

@@ -2,11 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from operator import attrgetter
+from typing import Any
 
 from modeler.core.figure import Picture
 from modeler.core.result import Figures, Presentation, Tables
-from modeler.core.table import Cell, Table, format_error_pair, format_percent
+from modeler.core.table import Column, Table, format_error_pair, format_percent
 from modeler.diagnosis import (
     Diagnosis,
     Finding,
@@ -130,11 +130,8 @@ def _build_sections(diagnosis: Diagnosis) -> list[page.Section]:
         )
     sections += [*_build_event_sections(diagnosis), *_build_proposal_sections(diagnosis)]
     blind = [(f"{what}:", why) for what, why in describe_undetectable(diagnosis)]
-    nothing = page.Paragraph("Nothing of the catalogue.")
-    sections.append(
-        page.Section("What these logs cannot tell", [page.Items(blind) if blind else nothing])
-    )
-    return sections
+    listed = page.Items(blind) if blind else page.Paragraph("Nothing of the catalogue.")
+    return [*sections, page.Section("What these logs cannot tell", [listed])]
 
 
 def _build_effect_section(diagnosis: Diagnosis, step: SearchStep, section_id: str) -> page.Section:
@@ -216,10 +213,7 @@ def _tabulate_findings(diagnosis: Diagnosis) -> list[page.Block]:
     head = ("effect", "joint", "values", "error before", "error after", "gain", "why")
     kinds = {"joint": "text", "values": "values", "gain": "bar", "why": "why"}
     drawn = {step.candidate.key for step in diagnosis.search.steps}
-    rows = [
-        _build_finding_row(finding, (finding.effect, finding.joint) in drawn)
-        for finding in findings
-    ]
+    rows = [_build_finding_row(f, (f.effect, f.joint) in drawn) for f in findings]
     return [page.PageTable(head, rows, _ERRORS, kinds)]
 
 
@@ -233,45 +227,57 @@ _ERRORS = (
 
 
 def _build_finding_row(finding: Finding, drawn: bool) -> list[str | page.PageCell]:
-    values = "; ".join(
-        f"{name} = {value:.4g}"
-        + (f" \u00b1 {finding.sigmas[name]:.2g}" if name in finding.sigmas else "")
-        + format_unit(finding, name)
-        for name, value in finding.parameters.items()
-    )
     status = "refinement" if finding.is_refinement else finding.status
+    link = _build_section_id(finding.effect, finding.joint) if drawn else ""
     return [
-        page.PageCell(
-            f"{finding.effect} ({status})",
-            link=_build_section_id(finding.effect, finding.joint) if drawn else "",
-        ),
+        page.PageCell(f"{finding.effect} ({status})", link=link),
         finding.joint or "all",
-        values,
+        _format_values(finding),
         *format_error_pair(finding.error_before, finding.error_after),
         page.PageCell(format_percent(finding.gain), max(0.0, finding.gain)),
         "; ".join(text for text in (finding.evidence, finding.warning) if text),
     ]
 
 
+def _format_values(finding: Finding) -> str:
+    sigmas = {name: f" \u00b1 {sigma:.2g}" for name, sigma in finding.sigmas.items()}
+    return "; ".join(
+        f"{name} = {value:.4g}{sigmas.get(name, '')}{format_unit(finding, name)}"
+        for name, value in finding.parameters.items()
+    )
+
+
+def _format_error(pair: tuple[str, Any], k: int) -> str:
+    return format_error_pair(pair[1].error_before, pair[1].error_after)[k]
+
+
+def _format_share(pair: tuple[str, Any], name: str) -> str:
+    return format_percent(getattr(pair[1], f"{name}_share"), 5)
+
+
+_JOINT_COLUMNS = (
+    Column("joint", "0"),
+    Column("error", "1.error_before", partial(_format_error, k=0)),
+    Column("with effects", "1.error_after", partial(_format_error, k=1)),
+    Column("rms", "1.rms_before", None),
+    Column("rms with effects", "1.rms_after", None),
+    Column("unit", "1.unit", None),
+    *(
+        Column(name, f"1.{name}_share", partial(_format_share, name=name))
+        for name in ("explained", "systematic", "noise")
+    ),
+)
+"""Of names and joints."""
+
+
 def _tabulate_joints(diagnosis: Diagnosis) -> page.PageTable:
     """Share of each joint's torque: explained, systematic, noise."""
-    rows = [
-        [
-            name,
-            *format_error_pair(j.error_before, j.error_after),
-            *(
-                format_percent(share, 5)
-                for share in (j.explained_share, j.systematic_share, j.noise_share)
-            ),
-        ]
-        for name, j in diagnosis.joints.items()
-    ]
-    return page.PageTable(
-        ("joint", "error", "with the effects", "explained", "systematic, unexplained", "noise"),
-        rows,
+    return page.tabulate(
+        _JOINT_COLUMNS,
+        [*diagnosis.joints.items()],
         "Errors of each joint in parts of its own rms torque or force. Shares of its variance with "
-        "the effects in. Systematic is what smooth functions "
-        "of the motion predict, what returns in the next lap, what lasts, and bursts.",
+        "the effects in. Systematic is what smooth functions of the motion predict, what returns "
+        "in the next lap, what lasts, and bursts.",
     )
 
 
@@ -282,7 +288,9 @@ def _collect_diagnosis_tables(diagnosis: Diagnosis) -> Tables:
     blind = "what these logs cannot tell", "effect, why"
     return {
         "effects": lambda: _tabulate_effects(diagnosis),
-        "joints": lambda: _build_joint_table(diagnosis),
+        "joints": lambda: Table.of_rows(
+            "errors without and with the effects", _JOINT_COLUMNS, diagnosis.joints.items()
+        ),
         "alternatives": lambda: Table.build(
             "alternatives to the first effect", "effect, joint, gain", diagnosis.alternatives
         ),
@@ -290,41 +298,28 @@ def _collect_diagnosis_tables(diagnosis: Diagnosis) -> Tables:
     }
 
 
+def _describe_status(finding: Finding) -> str:
+    if finding.is_refinement:
+        return "refines the model"
+    return "missing" if finding.status == "confirmed" else finding.status
+
+
+_EFFECT_COLUMNS = (
+    Column("effect", "effect"),
+    Column("joint", "joint"),
+    Column("error before", "error_before"),
+    Column("error after", "error_after"),
+    Column("gain", "gain"),
+    Column("values [SI]", _format_values),
+    Column("what", _describe_status),
+    Column("evidence", "evidence"),
+)
+
+
 def _tabulate_effects(diagnosis: Diagnosis) -> Table:
-    rows = [
-        _build_effect_row(f, "missing" if f.status == "confirmed" else f.status)
-        for f in diagnosis.effects
-    ]
-    rows += [_build_effect_row(f, "refines the model") for f in diagnosis.refinements]
-    return Table.build(
-        f"{diagnosis.robot}: {diagnosis.verdict}",
-        "effect, joint, error before, error after, gain, values [SI], what, evidence",
-        rows,
-        diagnosis.sentences[0],
-    )
-
-
-def _build_effect_row(finding: Finding, what: str) -> tuple[Cell, ...]:
-    values = ", ".join(
-        f"{name} = {value:.4g} {finding.units.get(name, '')}".rstrip()
-        for name, value in finding.parameters.items()
-    )
-    errors = finding.error_before, finding.error_after
-    return finding.effect, finding.joint, *errors, finding.gain, values, what, finding.evidence
-
-
-def _build_joint_table(diagnosis: Diagnosis) -> Table:
-    names = (
-        "error_before error_after rms_before rms_after unit "
-        "explained_share systematic_share noise_share"
-    )
-    read = attrgetter(*names.split())
-    rows = [(name, *read(joint)) for name, joint in diagnosis.joints.items()]
-    return Table.build(
-        "errors without and with the effects",
-        "joint, error, with effects, rms, rms with effects, unit, explained, systematic, noise",
-        rows,
-    )
+    findings = [*diagnosis.effects, *diagnosis.refinements]
+    title = f"{diagnosis.robot}: {diagnosis.verdict}"
+    return Table.of_rows(title, _EFFECT_COLUMNS, findings, diagnosis.sentences[0])
 
 
 def _collect_diagnosis_figures(diagnosis: Diagnosis) -> Figures:

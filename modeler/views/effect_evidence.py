@@ -448,9 +448,7 @@ def compute_law_sigma(
     covariance = compute_covariance(search.end.gram_blocks)
     first = covariance.shape[0] - sum(len(values) for values in search.end.values[place:])
     effect_columns = slice(first, first + len(search.end.values[place]))
-    means = np.column_stack(
-        [bins.compute_means(axis.apply_direction(column)) for column in columns.T]
-    )
+    means = np.column_stack([bins.compute_means(axis.apply_direction(c)) for c in columns.T])
     variance = np.einsum("bi,ij,bj->b", means, covariance[effect_columns, effect_columns], means)
     return np.asarray(np.sqrt(np.maximum(variance, 0.0)))
 

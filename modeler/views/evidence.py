@@ -8,27 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from modeler import diagnosis, validation
-from modeler.core.figure import (
-    BLACK,
-    BLUE,
-    COLOR_NAMES,
-    COLORS,
-    GREEN,
-    GREY,
-    SHADE,
-    SKY,
-    VERMILLION,
-    Band,
-    Curve,
-    Means,
-    Panel,
-    Picture,
-    Points,
-    Series,
-    Style,
-)
+from modeler.core import figure as fig
 from modeler.core.table import WORDS, format_percent
-from modeler.validation import WINDOW, break_at_gaps
+from modeler.validation import WINDOW, build_time_curve, build_torque_panels
 from modeler.views.effect_evidence import Evidence, build_bins
 from modeler.views.page import PageCell, PageTable
 from modeler.views.thresholds import THRESHOLDS
@@ -136,15 +118,15 @@ def _describe_outside(item: Evidence, x: tuple[float, float], y: tuple[float, fl
     return lines
 
 
-ROWS = Style(GREY, 2.0, 0.35)
-MEANS = Style(BLACK, 0.0)
-EFFECT = Style(VERMILLION, 2.2)
-RIVAL = Style(BLUE, 1.4, dash=True)
-LAW_BAND = Style(SKY, opacity=0.45)
-LINES, LINES_AFTER = Style(BLACK, 1.0), Style(GREEN, 1.4)
+ROWS = fig.Style(fig.GREY, 2.0, 0.35)
+MEANS = fig.Style(fig.BLACK, 0.0)
+EFFECT = fig.Style(fig.VERMILLION, 2.2)
+RIVAL = fig.Style(fig.BLUE, 1.4, dash=True)
+LAW_BAND = fig.Style(fig.SKY, opacity=0.45)
+LINES, LINES_AFTER = fig.Style(fig.BLACK, 1.0), fig.Style(fig.GREEN, 1.4)
 
 
-def draw_evidence_picture(item: Evidence) -> Picture:
+def draw_evidence_picture(item: Evidence) -> fig.Picture:
     """Draws the residual on the axis of the effect, without the effect and with it."""
     pick, view = item.step.candidate, choose_axis_ranges(item)
     panels = [
@@ -158,7 +140,7 @@ def draw_evidence_picture(item: Evidence) -> Picture:
     name = f"joint {pick.joint}" if pick.joint is not None else "the whole robot"
     drawn = item.without.data.compiled.spec.joints[item.j].name
     seen = "" if drawn == pick.joint else f", seen on joint {drawn}"
-    return Picture(
+    return fig.Picture(
         name=f"evidence_{pick.effect.id}_{pick.joint or 'robot'}",
         title=f"{pick.effect.title}: {name}{seen}",
         caption=" ".join(_write_caption(item, view)),
@@ -167,20 +149,20 @@ def draw_evidence_picture(item: Evidence) -> Picture:
     )
 
 
-def _build_residual_panel(item: Evidence, view: AxisRanges) -> Panel:
+def _build_residual_panel(item: Evidence, view: AxisRanges) -> fig.Panel:
     axis, bins = item.axis, item.bins
     curves = [(item.step.candidate.effect.id, item.contribution, EFFECT)]
     if item.baseline is not None:
         curves.append(("nonparametric fit", item.baseline, RIVAL))
     lines = [
-        Curve(name, *_break_at_zero(item, bins.compute_means(axis.apply_direction(y))), style)
+        fig.Curve(name, *_break_at_zero(item, bins.compute_means(axis.apply_direction(y))), style)
         for name, y, style in curves
     ]
     series = (*_build_cloud(item, view, item.before), *lines)
     return _build_panel("without the effect", item, view, series)
 
 
-def _build_law_panel(item: Evidence, effect_torque: np.ndarray, view: AxisRanges) -> Panel:
+def _build_law_panel(item: Evidence, effect_torque: np.ndarray, view: AxisRanges) -> fig.Panel:
     """Torque that is left to the effect with all else in the model, and its equation."""
     y = item.bins.compute_means(item.axis.apply_direction(effect_torque))
     series = [*_build_cloud(item, view, effect_torque + item.after)]
@@ -188,26 +170,30 @@ def _build_law_panel(item: Evidence, effect_torque: np.ndarray, view: AxisRanges
         half = validation.THRESHOLDS.band_deviations * item.effect_torque_sigma
         x, low = _break_at_zero(item, y - half)
         series.append(
-            Band("95 % band of the model", x, low, _break_at_zero(item, y + half)[1], LAW_BAND)
+            fig.Band("95 % band of the model", x, low, _break_at_zero(item, y + half)[1], LAW_BAND)
         )
-    series.append(Curve(item.step.candidate.effect.id, *_break_at_zero(item, y), EFFECT))
+    series.append(fig.Curve(item.step.candidate.effect.id, *_break_at_zero(item, y), EFFECT))
     panel = _build_panel("model of the effect", item, view, tuple(series))
     label = panel.y_label.replace("residual", "torque attributed to it")
     return dataclasses.replace(panel, y_label=label, y_range=view.law)
 
 
-def _build_panel(title: str, item: Evidence, view: AxisRanges, series: tuple[Series, ...]) -> Panel:
+def _build_panel(
+    title: str, item: Evidence, view: AxisRanges, series: tuple[fig.Series, ...]
+) -> fig.Panel:
     y_label = f"residual{item.axis.label_suffix} [{item.unit}]"
-    return Panel(title, item.axis.label, y_label, series, zero=True, x_range=view.x, y_range=view.y)
+    return fig.Panel(
+        title, item.axis.label, y_label, series, zero=True, x_range=view.x, y_range=view.y
+    )
 
 
-def _build_cloud(item: Evidence, view: AxisRanges, y: np.ndarray) -> tuple[Series, ...]:
+def _build_cloud(item: Evidence, view: AxisRanges, y: np.ndarray) -> tuple[fig.Series, ...]:
     x, turned = item.axis.x, item.axis.apply_direction(y)
     inside = np.flatnonzero((x >= view.x[0]) & (x <= view.x[1]))
     plot_rows = inside[:: max(1, len(inside) // THRESHOLDS.max_dots)]
     return (
-        Points("rows", x[plot_rows], turned[plot_rows], ROWS),
-        Means(
+        fig.Points("rows", x[plot_rows], turned[plot_rows], ROWS),
+        fig.Means(
             "mean of bin, 95 %",
             item.bins.centre,
             item.bins.compute_means(turned),
@@ -225,7 +211,7 @@ def _break_at_zero(item: Evidence, y: np.ndarray) -> tuple[np.ndarray, np.ndarra
     return np.insert(item.bins.centre, at, np.nan), np.insert(y, at, np.nan)
 
 
-def _build_order_panel(item: Evidence) -> Panel:
+def _build_order_panel(item: Evidence) -> fig.Panel:
     order = item.step.candidate.nonlinear_parameters["m"]
     series = []
     for label, state, style in (
@@ -235,8 +221,8 @@ def _build_order_panel(item: Evidence) -> Panel:
         spectrum = diagnosis.compute_joint_order_spectrum(state, item.j)
         if spectrum is not None:
             near = (spectrum.order > 0.5 * order) & (spectrum.order < 1.5 * order)
-            series.append(Curve(label, spectrum.order[near], spectrum.amplitude[near], style))
-    return Panel(
+            series.append(fig.Curve(label, spectrum.order[near], spectrum.amplitude[near], style))
+    return fig.Panel(
         "order spectrum",
         "waves per turn",
         f"amplitude [{item.unit}]",
@@ -308,13 +294,13 @@ def tabulate_alternatives(step: diagnosis.SearchStep) -> PageTable:
 
 def build_scatter_panel(
     title: str, x_label: str, y_label: str, x: np.ndarray, y: np.ndarray, block: np.ndarray
-) -> Panel:
+) -> fig.Panel:
     """Builds a panel of rows as dots, and means of bins with 95 % intervals."""
     bins = build_bins(x, np.zeros(len(x)), block, np.ones(len(x), dtype=bool))
     every = max(1, len(x) // THRESHOLDS.max_dots)
-    series: Sequence[Series] = (
-        Points("rows", x[::every], y[::every], ROWS),
-        Means(
+    series: Sequence[fig.Series] = (
+        fig.Points("rows", x[::every], y[::every], ROWS),
+        fig.Means(
             "mean of bin, 95 %",
             bins.centre,
             bins.compute_means(y),
@@ -322,20 +308,20 @@ def build_scatter_panel(
             MEANS,
         ),
     )
-    return Panel(title, x_label, y_label, tuple(series), zero=True)
+    return fig.Panel(title, x_label, y_label, tuple(series), zero=True)
 
 
 # Torque and residual before and after an effect, where the model without it is worst.
 
 
-MEASURED = Style(BLACK, width=1.2)
-BEFORE = Style(VERMILLION, width=1.6, dash=True)
-AFTER_STYLE = Style(GREEN, width=1.6)
-LEFT = Style(VERMILLION, width=1.2, dash=True)
-STAYS = Style(GREEN, width=1.2)
+MEASURED = fig.Style(fig.BLACK, width=1.2)
+BEFORE = fig.Style(fig.VERMILLION, width=1.6, dash=True)
+AFTER_STYLE = fig.Style(fig.GREEN, width=1.6)
+LEFT = fig.Style(fig.VERMILLION, width=1.2, dash=True)
+STAYS = fig.Style(fig.GREEN, width=1.2)
 
 
-def draw_torque_picture(item: Evidence) -> Picture:
+def draw_torque_picture(item: Evidence) -> fig.Picture:
     """Draws measured torque, the model without and with the effect; below, the residuals."""
     rows = item.without.rows
     joint = item.without.data.compiled.spec.joints[item.j]
@@ -347,35 +333,20 @@ def draw_torque_picture(item: Evidence) -> Picture:
         & (time <= end + THRESHOLDS.torque_margin)
     )
     measured, what = rows.y[item.j], WORDS[joint.effort_unit]
-
-    def build_curve(label: str, y: np.ndarray, style: Style) -> Curve:
-        return Curve(label, *break_at_gaps(pieces[near], time[near], y[near]), style)
-
-    name = item.without.data.observation.logs[log]
-    x_label, pick = f"time in {name} [s]", item.step.candidate
-    above = Panel(
-        "Torque" if what == "torque" else "Force",
-        x_label,
-        f"{what} [{joint.effort_unit}]",
-        (
-            build_curve("measured", measured, MEASURED),
-            build_curve("model before", measured - item.before, BEFORE),
-            build_curve("model after", measured - item.after, AFTER_STYLE),
-        ),
-        shade=(start, end),
+    curves = (
+        ("measured", measured, MEASURED),
+        ("model before", measured - item.before, BEFORE),
+        ("model after", measured - item.after, AFTER_STYLE),
+        ("residual before", item.before, LEFT),
+        ("residual after", item.after, STAYS),
     )
-    below = Panel(
-        "Residual",
-        x_label,
-        f"residual [{joint.effort_unit}]",
-        (
-            build_curve("residual before", item.before, LEFT),
-            build_curve("residual after", item.after, STAYS),
-        ),
+    drawn = [build_time_curve(n, pieces[near], time[near], y[near], s) for n, y, s in curves]
+    name, pick = item.without.data.observation.logs[log], item.step.candidate
+    above, below = build_torque_panels(
+        what.capitalize(), f"time in {name} [s]", joint.effort_unit, drawn[:3], drawn[3:],
         shade=(start, end),
-        zero=True,
-    )
-    return Picture(
+    )  # fmt: skip
+    return fig.Picture(
         name=f"torque_{pick.effect.id}_{pick.joint or 'robot'}",
         title=f"Joint {joint.name} where it is worst: before and after",
         caption=_write_torque_caption(item, what, (start, end), name),
@@ -424,7 +395,7 @@ def _write_torque_caption(item: Evidence, what: str, window: tuple[float, float]
         f"Above, {MEASURED.description}: measured {what}; {BEFORE.description}: the model without "
         f"the effect, fitted to the same rows; {AFTER_STYLE.description}: with it. Below, what "
         f"they leave: {LEFT.description} before, {STAYS.description} after. Shaded "
-        f"{COLOR_NAMES[SHADE]}: the {WINDOW} s with the largest squared residual before, "
+        f"{fig.COLOR_NAMES[fig.SHADE]}: the {WINDOW} s with the largest squared residual before, "
         f"{window[0]:.2f} to {window[1]:.2f} s; the rms residual there falls from {before:.3g} to "
         f"{after:.3g} {item.unit}. Filtered rows of the logs that are explained; rows that do not "
         "count are left out."
@@ -434,7 +405,7 @@ def _write_torque_caption(item: Evidence, what: str, window: tuple[float, float]
 # Pictures of what is no column: impacts of play around the moments they follow, a push in time.
 
 
-def draw_play_picture(state: diagnosis.State, j: int) -> Picture:
+def draw_play_picture(state: diagnosis.State, j: int) -> fig.Picture:
     """Draws |residual| of joint j against the time to the nearest change of its load's sign.
 
     Args:
@@ -453,7 +424,7 @@ def draw_play_picture(state: diagnosis.State, j: int) -> Picture:
         state.gram_blocks.block[j][near],
     )
     panel = replace(panel, shade=(0.0, diagnosis.THRESHOLDS.burst_duration))
-    return Picture(
+    return fig.Picture(
         f"evidence_backlash_{joint.name}",
         f"Play in the gear: joint {joint.name}",
         "The teeth hit when the load pushes them to the other side. "
@@ -481,7 +452,7 @@ def _compute_time_since_reversal(state: diagnosis.State, j: int) -> np.ndarray:
     return since
 
 
-def draw_push_picture(state: diagnosis.State, window: diagnosis.PushWindow) -> Picture:
+def draw_push_picture(state: diagnosis.State, window: diagnosis.PushWindow) -> fig.Picture:
     """Draws residuals of all joints around a push, in parts of the joint's rms torque.
 
     Args:
@@ -498,12 +469,16 @@ def draw_push_picture(state: diagnosis.State, window: diagnosis.PushWindow) -> P
     left[~(seen.used | masked[:, None])] = np.nan  # reversals of a joint: nobody looks at them
     size = np.sqrt(np.mean(seen.torque**2, axis=0))
     curves = tuple(
-        Curve(f"joint {joint.name}", seen.time[shown], left[shown, j] / size[j], Style(color))
-        for j, (joint, color) in enumerate(zip(seen.joints, itertools.cycle(COLORS), strict=False))
+        fig.Curve(
+            f"joint {joint.name}", seen.time[shown], left[shown, j] / size[j], fig.Style(color)
+        )
+        for j, (joint, color) in enumerate(
+            zip(seen.joints, itertools.cycle(fig.COLORS), strict=False)
+        )
         if size[j] > 0.0
     )
     name = seen.logs[window.log]
-    panel = Panel(
+    panel = fig.Panel(
         name,
         "time [s]",
         "residual over rms torque",
@@ -511,7 +486,7 @@ def draw_push_picture(state: diagnosis.State, window: diagnosis.PushWindow) -> P
         shade=(window.start, window.end),
         zero=True,
     )
-    return Picture(
+    return fig.Picture(
         "evidence_external_force",
         "Something pushed",
         "What the model leaves of the torques; shaded: while it pushed. These rows are left out of "

@@ -9,19 +9,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from modeler.core.figure import (
-    BLUE,
-    SHADE,
-    Band,
-    Bars,
-    Curve,
-    Heat,
-    Means,
-    Panel,
-    Picture,
-    Points,
-    Series,
-)
+from modeler.core import figure as fig
 
 _BESIDE = 4  # entries of a legend that leave room for the title
 _SETTINGS: Any = {
@@ -35,7 +23,7 @@ _SETTINGS: Any = {
 }
 
 
-def render_images(picture: Picture) -> dict[str, bytes]:
+def render_images(picture: fig.Picture) -> dict[str, bytes]:
     """Renders the picture as PNG (150 dpi) and SVG, 12 inches wide, without a date or version."""
     with matplotlib.rc_context(_SETTINGS):
         figure = _build_figure(picture)
@@ -53,7 +41,7 @@ class Drawing(Figure):
         return stream.getvalue()
 
 
-def draw_figure(picture: Picture) -> Drawing:
+def draw_figure(picture: fig.Picture) -> Drawing:
     """Draws the picture as a figure of matplotlib, 12 inches wide."""
     with matplotlib.rc_context(_SETTINGS):
         return _build_figure(picture)
@@ -65,7 +53,7 @@ def _save_figure(figure: Figure, kind: str, metadata: dict[str, None]) -> bytes:
     return stream.getvalue()
 
 
-def _build_figure(picture: Picture) -> Drawing:
+def _build_figure(picture: fig.Picture) -> Drawing:
     figure = Drawing(figsize=(12.0, picture.height / 100.0), layout="constrained")
     FigureCanvasAgg(figure)
     figure.suptitle(picture.title, x=0.01, ha="left", fontsize=11, fontweight="bold")
@@ -86,7 +74,7 @@ def _build_figure(picture: Picture) -> Drawing:
     return figure
 
 
-def _draw_legend(figure: Figure, picture: Picture, axes: Any) -> None:
+def _draw_legend(figure: Figure, picture: fig.Picture, axes: Any) -> None:
     """One legend for the picture: the series of panels that have several."""
     handles: dict[str, Any] = {}
     for row, panels in enumerate(picture.panels):
@@ -104,14 +92,14 @@ def _draw_legend(figure: Figure, picture: Picture, axes: Any) -> None:
         )
 
 
-def _draw_panel(axes: Any, panel: Panel) -> None:
+def _draw_panel(axes: Any, panel: fig.Panel) -> None:
     if not panel.series:
         axes.set_axis_off()
         return
     axes.set_title(panel.title)
     axes.set_ylabel(panel.y_label)
     if panel.scale == "log" and any(
-        np.isfinite(s.y).any() for s in panel.series if isinstance(s, Curve)
+        np.isfinite(s.y).any() for s in panel.series if isinstance(s, fig.Curve)
     ):
         axes.set_xscale("log")
         axes.set_yscale("log")
@@ -120,7 +108,7 @@ def _draw_panel(axes: Any, panel: Panel) -> None:
             label = "_nolegend_" if k else span.label
             axes.axvspan(start, end, color=span.color, lw=0, zorder=-1, label=label)
     if panel.shade is not None:
-        axes.axvspan(*panel.shade, color=SHADE, lw=0, zorder=0)
+        axes.axvspan(*panel.shade, color=fig.SHADE, lw=0, zorder=0)
     if panel.zero:
         axes.axhline(0.0, color="0.4", lw=0.7, zorder=1)
     for place, text in panel.marks:
@@ -136,12 +124,12 @@ def _draw_panel(axes: Any, panel: Panel) -> None:
         axes.set_ylim(panel.y_range)
 
 
-def _draw_series(axes: Any, series: Series) -> None:
-    if isinstance(series, Heat):
+def _draw_series(axes: Any, series: fig.Series) -> None:
+    if isinstance(series, fig.Heat):
         _draw_heat(axes, series)
-    elif isinstance(series, Bars):
+    elif isinstance(series, fig.Bars):
         _draw_bars(axes, series)
-    elif isinstance(series, Band):
+    elif isinstance(series, fig.Band):
         style = series.style
         axes.fill_between(
             series.x,
@@ -152,7 +140,7 @@ def _draw_series(axes: Any, series: Series) -> None:
             lw=0,
             label=series.label,
         )
-    elif isinstance(series, Means):
+    elif isinstance(series, fig.Means):
         axes.errorbar(
             series.x,
             series.y,
@@ -166,7 +154,7 @@ def _draw_series(axes: Any, series: Series) -> None:
             zorder=3,
         )
     else:
-        style, line = series.style, isinstance(series, Curve)
+        style, line = series.style, isinstance(series, fig.Curve)
         axes.plot(
             series.x,
             series.y,
@@ -177,11 +165,11 @@ def _draw_series(axes: Any, series: Series) -> None:
             marker="" if line else ".",
             ms=style.width,
             label=series.label,
-            rasterized=isinstance(series, Points),
+            rasterized=isinstance(series, fig.Points),
         )
 
 
-def _draw_bars(axes: Any, series: Bars) -> None:
+def _draw_bars(axes: Any, series: fig.Bars) -> None:
     stacked = series.base is not None
     drawn = axes.bar(
         series.names,
@@ -195,8 +183,8 @@ def _draw_bars(axes: Any, series: Bars) -> None:
     axes.bar_label(drawn, labels=list(series.texts), **place)
 
 
-def _draw_heat(axes: Any, heat: Heat) -> None:
-    colours = LinearSegmentedColormap.from_list("share", ["#ffffff", BLUE])
+def _draw_heat(axes: Any, heat: fig.Heat) -> None:
+    colours = LinearSegmentedColormap.from_list("share", ["#ffffff", fig.BLUE])
     axes.imshow(heat.values, cmap=colours, vmin=0.0, vmax=heat.top, aspect="auto")
     axes.set_xticks(range(len(heat.columns)), heat.columns)
     axes.set_yticks(range(len(heat.rows)), heat.rows)

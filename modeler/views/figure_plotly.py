@@ -99,6 +99,7 @@ def _build_layout(picture: Picture, width: float) -> dict[str, Any]:
         "margin": {"l": _LEFT, "r": _RIGHT, "t": top, "b": _BOTTOM + name_height},
         "paper_bgcolor": _NONE, "plot_bgcolor": _NONE, "hovermode": "closest",
         "barmode": "overlay", "uirevision": picture.name, "showlegend": False,
+        "modebar": {"bgcolor": _NONE, "color": _FAINT, "activecolor": "#333333"},
         "font": {"family": "system-ui, sans-serif", "size": 12, "color": "#333333"},
         "legend": {"orientation": "h", "x": 0, "xanchor": "left", "yref": "container", "y": 1,
                    "yanchor": "top", "bgcolor": _NONE},

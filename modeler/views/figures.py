@@ -11,22 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLUE,
-    COLORS,
-    LIMIT,
-    ORANGE,
-    Band,
-    Bars,
-    Curve,
-    Heat,
-    Means,
-    Panel,
-    Picture,
-    Series,
-    Style,
-    thin_curves,
-)
+from modeler.core import figure as fig
 from modeler.core.files import write_atomically
 from modeler.core.result import Figures
 from modeler.estimation import FitResult
@@ -39,19 +24,19 @@ if TYPE_CHECKING:
     from modeler.views.figure_matplotlib import Drawing
 
 
-def draw_picture(picture: Picture) -> "Drawing":
+def draw_picture(picture: fig.Picture) -> "Drawing":
     """Draws the picture as a figure."""
     from modeler.views.figure_matplotlib import draw_figure  # it takes long to load
 
     return draw_figure(picture)
 
 
-def collect_figures(drawn: Mapping[str, Callable[[], Picture]]) -> Figures:
+def collect_figures(drawn: Mapping[str, Callable[[], fig.Picture]]) -> Figures:
     """Returns figures by name, each drawn when it is requested."""
     return {name: partial(_draw_deferred, draw) for name, draw in drawn.items()}
 
 
-def _draw_deferred(draw: Callable[[], Picture]) -> "Drawing":
+def _draw_deferred(draw: Callable[[], fig.Picture]) -> "Drawing":
     return draw_picture(draw())
 
 
@@ -76,26 +61,26 @@ def draw_parameters(fit: FitResult) -> "Drawing":
         for share in (p.relative_sigma_percent or 0.0 for p in known)
     )
     names = tuple(p.name for p in known)
-    bars = Bars("relative sigma", names, shares, texts, Style(BLUE))
+    bars = fig.Bars("relative sigma", names, shares, texts, fig.Style(fig.BLUE))
     label = "sigma [% of the value], at most 100 drawn"
-    panel = Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label, (bars,))
+    panel = fig.Panel(f"{len(known)} of {len(fit.parameters)} base parameters", "", label, (bars,))
     title = f"{fit.robot}: uncertainty of the parameters"
-    return draw_picture(Picture("parameters", title, "", ((panel,),), 380))
+    return draw_picture(fig.Picture("parameters", title, "", ((panel,),), 380))
 
 
-def draw_errors_picture(diagnosis: "Diagnosis") -> Picture:
+def draw_errors_picture(diagnosis: "Diagnosis") -> fig.Picture:
     """Draws the relative error of every joint, without and with the effects."""
     panels, names = [], tuple(diagnosis.joints)
     for title, entry, color in (
-        ("as fitted", "error_before", BLUE),
-        ("with the effects", "error_after", ORANGE),
+        ("as fitted", "error_before", fig.BLUE),
+        ("with the effects", "error_after", fig.ORANGE),
     ):
         values = np.array([100.0 * getattr(joint, entry) for joint in diagnosis.joints.values()])
         texts = tuple("" if np.isnan(value) else f"{value:.2f}" for value in values)
-        bars = Bars("error", names, values, texts, Style(color))
-        panels.append(Panel(title, "joint", "relative error [%]", (bars,)))
+        bars = fig.Bars("error", names, values, texts, fig.Style(color))
+        panels.append(fig.Panel(title, "joint", "relative error [%]", (bars,)))
     title = f"{diagnosis.robot}: {diagnosis.verdict}"
-    return Picture("errors", title, "", (tuple(panels),), 380)
+    return fig.Picture("errors", title, "", (tuple(panels),), 380)
 
 
 def draw_log(
@@ -103,28 +88,28 @@ def draw_log(
 ) -> "Drawing":
     """Draws positions and torques of all joints against time."""
     panels = tuple(
-        (Panel(what, "time [s]", label, build_curves(joints, time, list(values.T)), zero=True),)
+        (fig.Panel(what, "time [s]", label, build_curves(joints, time, list(values.T)), zero=True),)
         for what, label, values in (
             ("positions", "q [rad, m]", q),
             ("torques", "tau [N m, N]", tau),
         )
     )
     return draw_picture(
-        Picture(
+        fig.Picture(
             name="channels", title=title, caption="", panels=panels, height=620, shared_time=True
         )
     )
 
 
 def build_curves(
-    names: Sequence[str], time: np.ndarray, columns: Sequence[np.ndarray], limit: int = LIMIT
-) -> tuple[Curve, ...]:
+    names: Sequence[str], time: np.ndarray, columns: Sequence[np.ndarray], limit: int = fig.LIMIT
+) -> tuple[fig.Curve, ...]:
     """Builds columns against time, each in a colour of its own, of at most `limit` points."""
     curves = []
     for k, (name, values) in enumerate(zip(names, columns, strict=True)):
-        rows = thin_curves((values,), limit)
-        style = Style(COLORS[k % len(COLORS)], dash=k >= len(COLORS))
-        curves.append(Curve(name, time[rows], values[rows], style))
+        rows = fig.thin_curves((values,), limit)
+        style = fig.Style(fig.COLORS[k % len(fig.COLORS)], dash=k >= len(fig.COLORS))
+        curves.append(fig.Curve(name, time[rows], values[rows], style))
     return tuple(curves)
 
 
@@ -132,7 +117,7 @@ def build_curves(
 
 
 def write_files(
-    folder: Path, pictures: Sequence[Picture], progress: Callable[[float], None] | None = None
+    folder: Path, pictures: Sequence[fig.Picture], progress: Callable[[float], None] | None = None
 ) -> tuple[Path, ...]:
     """Writes every picture; returns the paths written.
 
@@ -158,7 +143,7 @@ def write_files(
     return tuple(written)
 
 
-def format_csv(picture: Picture) -> str:
+def format_csv(picture: fig.Picture) -> str:
     """Formats the numbers of a picture: panel, series, x, y, error; five significant digits."""
     lines = ["panel,series,x,y,error"]
     for panel in (panel for row in picture.panels for panel in row):
@@ -170,20 +155,20 @@ def format_csv(picture: Picture) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _format_rows(series: Series) -> list[str]:
-    if isinstance(series, Heat):
+def _format_rows(series: fig.Series) -> list[str]:
+    if isinstance(series, fig.Heat):
         return [
             f"{_quote_label(column)} / {_quote_label(row)},{series.values[i, j]:.5g},"
             for i, row in enumerate(series.rows)
             for j, column in enumerate(series.columns)
         ]
-    if isinstance(series, Bars):
+    if isinstance(series, fig.Bars):
         pairs = zip(series.names, series.values, strict=True)
         return [f"{_quote_label(name)},{value:.5g}," for name, value in pairs]
-    if isinstance(series, Means):
+    if isinstance(series, fig.Means):
         triples = zip(series.x, series.y, series.error, strict=True)
         return [f"{x:.5g},{y:.5g},{error:.5g}".replace("nan", "") for x, y, error in triples]
-    if isinstance(series, Band):
+    if isinstance(series, fig.Band):
         middle, half = 0.5 * (series.low + series.high), 0.5 * (series.high - series.low)
         triples = zip(series.x, middle, half, strict=True)
         return [f"{x:.7g},{y:.5g},{error:.5g}" for x, y, error in triples if np.isfinite(y)]

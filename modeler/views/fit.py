@@ -155,12 +155,9 @@ def _build_estimates_table(title: str, parameters: Sequence[ParameterEstimate]) 
 
 
 def _tabulate_errors(fit: FitResult) -> Table:
-    return Table.build(
-        f"{fit.robot}: what the fit leaves",
-        "joint, relative error, rms, unit, rows",
-        [(j.name, j.relative_error, j.rms, j.unit, j.rows) for j in fit.joints],
-        f"all rows together: {format_percent(fit.relative_error)}, on the logs of the fit",
-    )
+    note = f"all rows together: {format_percent(fit.relative_error)}, on the logs of the fit"
+    title = f"{fit.robot}: what the fit leaves"
+    return Table.of_rows(title, history.JOINT_COLUMNS, fit.joints, note)
 
 
 def _collect_fit_figures(fit: FitResult) -> Figures:

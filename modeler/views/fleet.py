@@ -10,12 +10,11 @@ from modeler.core.figure import BLUE, COLORS, GREY, Curve, Heat, Means, Panel, P
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Table, format_percent
 from modeler.validation import (
-    HEAD,
+    QUANTITY_COLUMNS,
     Fleet,
     FleetFinding,
     QuantityHistory,
     QuantityValues,
-    build_table_rows,
     describe_finding,
     format_effect_title,
     format_fleet,
@@ -93,19 +92,17 @@ def _build_verdict(fleet: Fleet) -> page.Verdict | page.Paragraph:
 def draw_finding_picture(fleet: Fleet, one: FleetFinding) -> Picture:
     """Draws the values of the finding's machine over its periods, before those of all others."""
     each = next(each for each in fleet.histories if each.quantity == one.quantity)
-    others = [
-        machine_values for name, machine_values in each.machines.items() if name != one.machine
-    ]
+    others = [values for name, values in each.machines.items() if name != one.machine]
     series: list[Curve | Means] = []
     if others:
         series.append(_build_background(others))
-    machine_values = each.machines[one.machine]
+    values = each.machines[one.machine]
     series.append(
         Means(
             f"machine {one.machine}",
-            machine_values.times,
-            machine_values.values,
-            2.0 * machine_values.sigmas,
+            values.times,
+            values.values,
+            2.0 * values.sigmas,
             Style(BLUE, 1.6),
         )
     )
@@ -125,12 +122,12 @@ def draw_quantity_picture(fleet: Fleet, each: QuantityHistory) -> Picture:
     series = tuple(
         Means(
             name,
-            machine_values.times,
-            machine_values.values,
-            2.0 * machine_values.sigmas,
+            values.times,
+            values.values,
+            2.0 * values.sigmas,
             Style(COLORS[k % len(COLORS)], 1.3),
         )
-        for k, (name, machine_values) in enumerate(each.machines.items())
+        for k, (name, values) in enumerate(each.machines.items())
     )
     label = f"{each.quantity.parameter} [{each.quantity.unit}]"
     panel = Panel("", f"time [{fleet.unit}]", label, series)
@@ -143,16 +140,14 @@ def draw_quantity_picture(fleet: Fleet, each: QuantityHistory) -> Picture:
 
 def _build_background(others: Sequence[QuantityValues]) -> Curve:
     """All other machines as one broken line."""
-    x = np.concatenate([[*machine_values.times, np.nan] for machine_values in others])
-    y = np.concatenate([[*machine_values.values, np.nan] for machine_values in others])
+    x = np.concatenate([[*values.times, np.nan] for values in others])
+    y = np.concatenate([[*values.values, np.nan] for values in others])
     return Curve("the others", x, y, Style(GREY, 1.0, 0.7))
 
 
 def draw_map_pictures(fleet: Fleet) -> list[Picture]:
     """Draws the greatest change of every quantity and machine, in sigmas."""
-    return [
-        _draw_map(fleet, machines, k) for k, machines in enumerate(_group_machines(fleet), start=1)
-    ]
+    return [_draw_map(fleet, names, k) for k, names in enumerate(_group_machines(fleet), start=1)]
 
 
 def _group_machines(fleet: Fleet) -> list[list[str]]:
@@ -167,9 +162,7 @@ def _group_machines(fleet: Fleet) -> list[list[str]]:
 def _draw_map(fleet: Fleet, machines: Sequence[str], number: int) -> Picture:
     followed = fleet.histories
     values = np.array([[each.scores.get(name, np.nan) for name in machines] for each in followed])
-    texts = tuple(
-        tuple("" if np.isnan(value) else f"{value:.1f}" for value in row) for row in values
-    )
+    texts = tuple(tuple("" if np.isnan(v) else f"{v:.1f}" for v in row) for row in values)
     rows = tuple(each.quantity.parameter for each in followed)
     heat = Heat(
         "greatest change [sigma]", tuple(machines), rows, values, texts, THRESHOLDS.darkest_sigmas
@@ -184,14 +177,12 @@ def _draw_map(fleet: Fleet, machines: Sequence[str], number: int) -> Picture:
 
 
 def _tabulate_followed(fleet: Fleet) -> page.PageTable:
-    head, *rows = build_table_rows(fleet)
-    return page.PageTable(
-        head,
-        rows,
+    return page.tabulate(
+        QUANTITY_COLUMNS,
+        fleet.histories,
         "Level: median of all machines and periods. Scatter: by which values change from one "
         "period to the next more than the noise of their logs explains. Detectable: the smallest "
         "straight drift over all periods that would be a finding.",
-        dict.fromkeys(("effect", "parameter", "unit"), "text"),
     )
 
 
@@ -205,19 +196,8 @@ def _collect_tables(fleet: Fleet) -> Tables:
 
 
 def _tabulate_findings(fleet: Fleet) -> Table:
-    read = attrgetter(
-        *[
-            "machine",
-            "quantity.joint",
-            "quantity.effect",
-            "shape",
-            "begin",
-            "end",
-            "before",
-            "change",
-        ],
-        *["quantity.unit", "change_percent", "score", "p_value"],
-    )
+    names = "machine quantity.joint quantity.effect shape begin end before change quantity.unit"
+    read = attrgetter(*names.split(), "change_percent", "score", "p_value")
     return Table.build(
         f"{fleet.robot}: {fleet.verdict}",
         "machine, joint, effect, shape, from, to, before, change, unit, change of it [%], sigmas, "
@@ -231,36 +211,21 @@ def _tabulate_values(fleet: Fleet) -> Table:
     rows = [
         (name, period, at, each.quantity.parameter, value, sigma, each.quantity.unit)
         for each in fleet.histories
-        for name, machine_values in each.machines.items()
-        for period, at, value, sigma in zip(*read(machine_values), strict=True)
+        for name, values in each.machines.items()
+        for period, at, value, sigma in zip(*read(values), strict=True)
     ]
     head = f"machine, period, at [{fleet.unit}], parameter, value, sigma, unit"
     return Table.build("what was followed, log by log", head, rows)
 
 
 def _tabulate_quantities(fleet: Fleet) -> Table:
-    rows = [
-        (
-            q.joint,
-            format_effect_title(q),
-            q.parameter,
-            each.level,
-            q.unit,
-            each.factor,
-            each.smallest_detectable,
-        )
-        for each in fleet.histories
-        for q in [each.quantity]
-    ]
-    return Table.build("what may drift", HEAD, rows)
+    return Table.of_rows("what may drift", QUANTITY_COLUMNS, fleet.histories)
 
 
 def _collect_figures(fleet: Fleet) -> Figures:
     drawn: dict[str, Callable[[], Picture]] = {}
-    for k, portion in enumerate(_group_machines(fleet)):
-        drawn["changes" if not k else f"changes {k + 1}"] = partial(
-            _draw_map, fleet, portion, k + 1
-        )
+    for k, names in enumerate(_group_machines(fleet)):
+        drawn["changes" if not k else f"changes {k + 1}"] = partial(_draw_map, fleet, names, k + 1)
     for k, each in enumerate(fleet.histories, start=1):
         drawn[f"quantity {k}"] = partial(draw_quantity_picture, fleet, each)
     return collect_figures(drawn)

@@ -5,21 +5,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLUE,
-    GREEN,
-    ORANGE,
-    PINK,
-    SKY,
-    VERMILLION,
-    Bars,
-    Curve,
-    Panel,
-    Picture,
-    Style,
-)
+from modeler.core import figure as fig
 from modeler.core.manifest import BaseSpec, TermSpec
-from modeler.core.table import DIGITS, WORDS, format_error_pair, format_percent
+from modeler.core.table import DIGITS, WORDS, Column, format_error_pair, format_percent
 from modeler.effects import Effect, find_effect
 from modeler.estimation import (
     Addition,
@@ -100,26 +88,23 @@ def _build_sigma_cell(parameter: ParameterEstimate) -> page.PageCell:
     return page.PageCell(f"{text}{mark}", min(1.0, share / THRESHOLDS.full_bar_percent))
 
 
+JOINT_COLUMNS = (
+    Column("joint", "name"),
+    Column("relative error", "relative_error", "%", kind="bar"),
+    Column("rms", "rms", ".3g", "unit"),
+    Column("unit", "unit", None),
+    Column("rows", "rows"),
+)
+"""Of what a fit leaves on the logs that were fitted."""
+
+
 def tabulate_joint_errors(fit: FitResult) -> page.PageTable:
     """Tabulates errors by joint on the fitted logs, in parts of the joint's own torque."""
-    top = max((joint.relative_error or 0.0 for joint in fit.joints), default=0.0) or 1.0
-    rows = [
-        (
-            joint.name,
-            page.PageCell(
-                format_percent(joint.relative_error), (joint.relative_error or 0.0) / top
-            ),
-            f"{joint.rms:.3g} {joint.unit}",
-            f"{joint.rows}",
-        )
-        for joint in fit.joints
-    ]
-    return page.PageTable(
-        ("joint", "relative error", "rms residual", "rows"),
-        rows,
+    return page.tabulate(
+        JOINT_COLUMNS,
+        fit.joints,
         "On the logs that were fitted. Relative error: norm of the residual over the norm of the "
         "joint's own torque or force.",
-        {"relative error": "bar"},
     )
 
 
@@ -171,8 +156,8 @@ def _format_spread(value: float, sigma: float, interval: tuple[float, float] | N
     return spread.removeprefix("+- ").removeprefix("(").removesuffix(")")
 
 
-HELD, FITTED, LEARNED = Style(BLUE), Style(ORANGE), Style(PINK)
-SAME, BETTER, WORSE = Style(SKY), Style(GREEN), Style(VERMILLION)
+HELD, FITTED, LEARNED = fig.Style(fig.BLUE), fig.Style(fig.ORANGE), fig.Style(fig.PINK)
+SAME, BETTER, WORSE = fig.Style(fig.SKY), fig.Style(fig.GREEN), fig.Style(fig.VERMILLION)
 _ACROSS = 3  # panels side by side
 
 
@@ -233,25 +218,20 @@ def build_effect_page(
             (s, _collect_units(s, effect, model)) for s in model.history if s.effect == effect.id
         ]
         effect_parameters = [p for p in model.fit.parameters if p.name in names]
-        shapes, caption = (
-            tabulate_nonlinear_parameters(steps),
-            "SI units; sigma is one standard deviation.",
-        )
-        values = [
-            tabulate_values(effect_parameters, (), caption),
-            *([shapes] if shapes else values[:0]),
-        ]
+        shapes = tabulate_nonlinear_parameters(steps)
+        caption = "SI units; sigma is one standard deviation."
+        values = [tabulate_values(effect_parameters, (), caption), *([shapes] if shapes else [])]
     joints = ", ".join(dict.fromkeys(i.joint for i in at)) or "none"
     units = ", ".join(f"{c.prefix}: {c.unit_revolute}" for c in effect.columns)
     label, x, y = drawn
-    curve = Curve(effect.id, np.array(x), np.array(y), LEARNED if effect.is_learned else HELD)
+    curve = fig.Curve(effect.id, np.array(x), np.array(y), LEARNED if effect.is_learned else HELD)
     torque = f"torque per unit of {effect.columns[0].prefix}"
-    picture = Picture(
+    picture = fig.Picture(
         name=effect.id,
         title=effect.title,
         height=380,
         caption=f"The torque against {label}; what else it depends on stands at 1.",
-        panels=((Panel(effect.equation, label, torque, (curve,), zero=True),),),
+        panels=((fig.Panel(effect.equation, label, torque, (curve,), zero=True),),),
     )
     return page.Page(
         title=f"{robot.name}: {effect.id}",
@@ -424,7 +404,7 @@ def _break_step_name(step: Addition) -> str:
     return format_step_name(step).replace("_", "\n").replace(" @", "\n@")
 
 
-def draw_waterfall_picture(history: Sequence[Addition]) -> Picture:
+def draw_waterfall_picture(history: Sequence[Addition]) -> fig.Picture:
     """Draws the error over the joints after every effect, on held-out and on fitted logs."""
     names = tuple(_break_step_name(step) for step in history)
     held, fitted = 100.0 * np.array([(s.error, s.training_error) for s in history]).T
@@ -435,17 +415,17 @@ def draw_waterfall_picture(history: Sequence[Addition]) -> Picture:
     )
     learned = np.array([step.is_learned for step in history])
 
-    def build_bars(label: str, errors: np.ndarray, style: Style) -> tuple[Bars, ...]:
+    def build_bars(label: str, errors: np.ndarray, style: fig.Style) -> tuple[fig.Bars, ...]:
         physics = _build_bars(label, names, np.where(learned, np.nan, errors), style)
         law = _build_bars("learned, not physics", names, np.where(learned, errors, np.nan), LEARNED)
         return (physics, law) if learned.any() else (physics,)
 
     panels = (
-        Panel(f"On {first}", "", "error [%]", build_bars("judged", held, HELD)),
-        Panel("On the fitted logs", "", "error [%]", build_bars("fitted", fitted, FITTED)),
+        fig.Panel(f"On {first}", "", "error [%]", build_bars("judged", held, HELD)),
+        fig.Panel("On the fitted logs", "", "error [%]", build_bars("fitted", fitted, FITTED)),
     )
     several = len(history[-1].joints) > 1
-    return Picture(
+    return fig.Picture(
         name="waterfall",
         title="Error after every effect",
         caption=(
@@ -463,7 +443,7 @@ def draw_waterfall_picture(history: Sequence[Addition]) -> Picture:
     )
 
 
-def draw_joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> Picture:
+def draw_joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -> fig.Picture:
     """Draws the error of every joint after every effect.
 
     Args:
@@ -471,17 +451,17 @@ def draw_joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -
         units: of the efforts, by joint.
     """
     panels = [_build_joint_panel(history, name, units[name]) for name in history[-1].joints]
-    panels += [Panel("", "", "", ())] * (-len(panels) % min(_ACROSS, len(panels)))
+    panels += [fig.Panel("", "", "", ())] * (-len(panels) % min(_ACROSS, len(panels)))
     across = min(_ACROSS, len(panels))
     rows = tuple(tuple(panels[k : k + across]) for k in range(0, len(panels), across))
     caption = (
         f"{SAME.description.capitalize()}: the error of each joint on motion that was not fitted, "
         "in parts of its own rms torque or force, before any effect and after each"
     )
-    drawn = {bars.style for panel in panels for bars in panel.series if isinstance(bars, Bars)}
+    drawn = {bars.style for panel in panels for bars in panel.series if isinstance(bars, fig.Bars)}
     for style, what in ((BETTER, "fall"), (WORSE, "rise")):
         caption += f"; {style.description}: a clear {what}" * (style in drawn)
-    return Picture(
+    return fig.Picture(
         name="waterfall_joints",
         title="Error of every joint after every effect",
         caption=f"{caption}.",
@@ -490,7 +470,7 @@ def draw_joints_picture(history: Sequence[Addition], units: Mapping[str, str]) -
     )
 
 
-def _build_joint_panel(history: Sequence[Addition], name: str, unit: str) -> Panel:
+def _build_joint_panel(history: Sequence[Addition], name: str, unit: str) -> fig.Panel:
     """Bars of one joint: no clear change, lower, higher."""
     steps = [step for step in history if name in step.joints]
     names = tuple(_break_step_name(step) for step in steps)
@@ -507,10 +487,12 @@ def _build_joint_panel(history: Sequence[Addition], name: str, unit: str) -> Pan
         for label, style, mask in kinds
         if mask.any()
     ]
-    return Panel(f"Joint {name}", "", f"error [% of {WORDS[unit]}]", tuple(series))
+    return fig.Panel(f"Joint {name}", "", f"error [% of {WORDS[unit]}]", tuple(series))
 
 
-def _build_bars(label: str, names: tuple[str, ...], errors: np.ndarray, style: Style) -> Bars:
-    return Bars(
+def _build_bars(
+    label: str, names: tuple[str, ...], errors: np.ndarray, style: fig.Style
+) -> fig.Bars:
+    return fig.Bars(
         label, names, errors, tuple("" if np.isnan(e) else f"{e:.{DIGITS}g}" for e in errors), style
     )

@@ -2,22 +2,7 @@
 
 import numpy as np
 
-from modeler.core.figure import (
-    BLACK,
-    BLUE,
-    GREEN,
-    ORANGE,
-    PALE,
-    PINK,
-    SLATE,
-    VERMILLION,
-    Curve,
-    Panel,
-    Picture,
-    Series,
-    Span,
-    Style,
-)
+from modeler.core import figure as fig
 from modeler.regression import Bands, ChannelNoise
 from modeler.views import page
 from modeler.views.thresholds import THRESHOLDS
@@ -25,9 +10,13 @@ from modeler.views.thresholds import THRESHOLDS
 _ROW = 210  # pixels
 
 _POWER = {"positions": 4, "speeds": 2, "accelerations": 0}
-_SPECTRUM, _FLOOR, _MEETS = Style(BLUE, 1.6), Style(ORANGE, 1.6), Style(SLATE, 1.2, dash=True)
-_TORQUE, _OF_NOISE = Style(GREEN, 1.6), Style(VERMILLION, 1.6)
-_POSITION, _PARALLEL = Style(PINK, 1.4), Style(BLACK, 1.4)
+_SPECTRUM, _FLOOR, _MEETS = (
+    fig.Style(fig.BLUE, 1.6),
+    fig.Style(fig.ORANGE, 1.6),
+    fig.Style(fig.SLATE, 1.2, dash=True),
+)
+_TORQUE, _OF_NOISE = fig.Style(fig.GREEN, 1.6), fig.Style(fig.VERMILLION, 1.6)
+_POSITION, _PARALLEL = fig.Style(fig.PINK, 1.4), fig.Style(fig.BLACK, 1.4)
 
 
 def build_noise_blocks(bands: Bands | None) -> list[page.Block]:
@@ -39,7 +28,7 @@ def build_noise_blocks(bands: Bands | None) -> list[page.Block]:
     return [*said, page.Figure(picture, titled=False)]
 
 
-def draw_noise_picture(bands: Bands | None) -> Picture | None:
+def draw_noise_picture(bands: Bands | None) -> fig.Picture | None:
     """Draws spectrum and noise floor of each moving joint, and its torque noise if fitted."""
     moving = [one for one in bands.noise if one.is_moving and any(one.spectrum)] if bands else []
     if bands is None or not moving:
@@ -51,18 +40,18 @@ def draw_noise_picture(bands: Bands | None) -> Picture | None:
     )
     caption = _write_caption(bands, moving[0].quantity, fitted)
     height = 60 + _ROW * len(rows)
-    return Picture("noise_of_the_motion", "Noise of the motion", caption, rows, height)
+    return fig.Picture("noise_of_the_motion", "Noise of the motion", caption, rows, height)
 
 
-def _build_motion_panel(one: ChannelNoise, bands: Bands) -> Panel:
+def _build_motion_panel(one: ChannelNoise, bands: Bands) -> fig.Panel:
     """Its spectrum, and the floor that it meets."""
     f, S = np.array(one.frequency), np.array(one.spectrum)
     f, S = f[S > 0.0], S[S > 0.0]
     ends = min(S.min(initial=np.inf), one.density or np.inf), S.max(initial=one.density)
-    series: list[Series] = [Curve(f"spectrum of the {one.quantity}", f, S, _SPECTRUM)]
+    series: list[fig.Series] = [fig.Curve(f"spectrum of the {one.quantity}", f, S, _SPECTRUM)]
     if one.density and one.noise_crossover_hz:
         along = np.array([one.noise_crossover_hz, f[-1]])
-        series.append(Curve("floor: its noise", along, np.full(2, one.density), _FLOOR))
+        series.append(fig.Curve("floor: its noise", along, np.full(2, one.density), _FLOOR))
         series.append(
             _build_vertical_curve(
                 "the noise hides the motion", one.noise_crossover_hz, ends, _MEETS
@@ -72,16 +61,16 @@ def _build_motion_panel(one: ChannelNoise, bands: Bands) -> Panel:
     colour = f", noise of f^-{one.spectral_slope:.1f}" if one.spectral_slope else ""
     unit = {4: one.unit, 2: f"({one.unit}/s)", 0: f"({one.unit}/s2)"}[_POWER[one.quantity]]
     title, label = f"Joint {one.joint}: {one.quantity}{colour}", f"density [{unit}^2/Hz]"
-    spans = (Span("motion band", band, PALE["blue"]),) if one.band_hz else ()
+    spans = (fig.Span("motion band", band, fig.PALE["blue"]),) if one.band_hz else ()
     every = (*series, *_build_cutoff_curves(bands, ends))
-    return Panel(title, "frequency [Hz]", label, every, "log", spans=spans)
+    return fig.Panel(title, "frequency [Hz]", label, every, "log", spans=spans)
 
 
-def _build_torque_panel(one: ChannelNoise, bands: Bands) -> Panel:
+def _build_torque_panel(one: ChannelNoise, bands: Bands) -> fig.Panel:
     """A f^p, p = 4 of positions, against the level of the torque."""
     A, T, power = one.noise_torque, one.torque_noise, _POWER[one.quantity]
     if not A or not T or not power:  # without a motor or rows, or with exact accelerations
-        return Panel("", "", "", ())
+        return fig.Panel("", "", "", ())
     f, cross, factor = (
         one.frequency,
         (T / A) ** (1.0 / power),
@@ -96,16 +85,16 @@ def _build_torque_panel(one: ChannelNoise, bands: Bands) -> Panel:
     )
     label = f"density [({'N' if one.unit == 'm' else 'N m'})^2/Hz]"
     title = f"Joint {one.joint}: torques{', which limits' * (one.joint == bands.limiting_joint)}"
-    level = Curve("noise of the torque", np.array([f[0], f[-1]]), np.full(2, T), _TORQUE)
+    level = fig.Curve("noise of the torque", np.array([f[0], f[-1]]), np.full(2, T), _TORQUE)
     curves = (
-        Curve("torque of that noise", along, noise, _OF_NOISE),
+        fig.Curve("torque of that noise", along, noise, _OF_NOISE),
         level,
         *_build_cutoff_curves(bands, ends),
     )
-    return Panel(title, "frequency [Hz]", label, curves, "log")
+    return fig.Panel(title, "frequency [Hz]", label, curves, "log")
 
 
-def _build_cutoff_curves(bands: Bands, ends: tuple[float, float]) -> list[Curve]:
+def _build_cutoff_curves(bands: Bands, ends: tuple[float, float]) -> list[fig.Curve]:
     both = (
         ("position filter", bands.position_cutoff, _POSITION),
         ("parallel filter", bands.parallel_cutoff, _PARALLEL),
@@ -113,8 +102,10 @@ def _build_cutoff_curves(bands: Bands, ends: tuple[float, float]) -> list[Curve]
     return [_build_vertical_curve(label, at, ends, style) for label, at, style in both if at]
 
 
-def _build_vertical_curve(label: str, at: float, ends: tuple[float, float], style: Style) -> Curve:
-    return Curve(label, np.full(2, at), np.array(ends), style)
+def _build_vertical_curve(
+    label: str, at: float, ends: tuple[float, float], style: fig.Style
+) -> fig.Curve:
+    return fig.Curve(label, np.full(2, at), np.array(ends), style)
 
 
 def _write_caption(bands: Bands, of: str, fitted: bool) -> str:

@@ -7,7 +7,7 @@ import gzip
 import json
 import re
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +17,7 @@ import jinja2
 from modeler.core.figure import Picture
 from modeler.core.files import locate_resources, resolve_page_path, write_atomically
 from modeler.core.formula import Formula
+from modeler.core.table import Column
 from modeler.views.figure_plotly import (
     build_page_figure,
     collect_legend,
@@ -57,6 +58,40 @@ class PageTable:
     caption: str = ""
     kinds: Mapping[str, str] = field(default_factory=dict)
     block: str = "table"
+
+
+def tabulate(
+    columns: Sequence[Column],
+    things: Sequence[Any],
+    caption: str = "",
+    link: Callable[[Any], str] | None = None,
+) -> PageTable:
+    """Builds the table of a page from columns that a result states.
+
+    Bars are in parts of the longest of the table.
+
+    Args:
+        columns: those that are shown.
+        things: one a row.
+        caption: below it.
+        link: of the first cell of a row, the id of a section.
+    """
+    shown = [column for column in columns if column.show is not None]
+    bars = [c for c in shown if c.kind == "bar"]
+    top = max((c.get_value(thing) or 0.0 for c in bars for thing in things), default=0.0) or 1.0
+    rows = [
+        [
+            PageCell(
+                c.format(thing),
+                (c.get_value(thing) or 0.0) / top if c.kind == "bar" else 0.0,
+                link(thing) if link is not None and not k else "",
+            )
+            for k, c in enumerate(shown)
+        ]
+        for thing in things
+    ]
+    kinds = {column.head: column.kind for column in shown}
+    return PageTable([*kinds], rows, caption, kinds)
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,7 @@ def test_plotly_js_is_the_one_that_is_named() -> None:
 
 def test_only_what_we_made_is_printed_as_it_is() -> None:
     """`| safe` in templates: assets, packed scripts and numbers, JSON, and our own drawing."""
-    own = {"asset(", "json(", "content", "drawings.block()", "drawings.content(", "plotly()", "svg"}
+    own = {"asset(", "json(", "content", "drawings.encode()", "plotly()", "svg"}
     for path in (ROOT / "templates" / "pages").glob("*.jinja"):
         text = path.read_text(encoding="utf-8")
         for expression in re.findall(r"\{\{-?\s*([^{}]*?)\s*\|\s*safe", text):
