@@ -90,8 +90,9 @@ def tabulate(
         ]
         for thing in things
     ]
-    kinds = {column.head: column.kind for column in shown}
-    return PageTable([*kinds], rows, caption, kinds)
+    heads = [c.short if c.short and callable(c.show) else c.head for c in shown]  # unit in the text
+    kinds = dict(zip(heads, (c.kind for c in shown), strict=True))
+    return PageTable(heads, rows, caption, kinds)
 
 
 @dataclass(frozen=True)
