@@ -29,7 +29,6 @@ from modeler.core.figure import (
     thin_curves,
     thin_points,
 )
-from modeler.core.table import WORDS
 from modeler.validation import Prediction, compute_residual, concatenate_time
 
 _MEASURED = Style(BLACK, width=1.1)
@@ -202,9 +201,7 @@ def draw_torques(
     ) -> Curve:
         thinned = thin_curves((np.asarray(values[shown], dtype=float),), THRESHOLDS.curve_points)
         part, axis = shown[thinned], concatenate_time(p)[0]
-        return Curve(
-            name, *validation.break_at_gaps(p.segment[part], axis[part], values[part]), style
-        )
+        return validation.build_time_curve(name, p.segment[part], axis[part], values[part], style)
 
     above: list[Series] = [build_curve(first, "measured", first.measured[:, j], rows, _MEASURED)]
     below: list[Series] = []
@@ -218,19 +215,8 @@ def draw_torques(
     unit = first.joints[j].effort_unit
     spans = validation.find_masked_spans(first, j, time, rows)
     ends = float(time[rows[0]]), float(time[rows[-1]])
-    torque = Panel(
-        "", label, f"{WORDS[unit]} [{unit}]", tuple(above), marks=marks, spans=spans, x_range=ends
-    )
-    left = Panel(
-        "",
-        label,
-        f"residual [{unit}]",
-        tuple(below),
-        marks=marks,
-        zero=True,
-        spans=spans,
-        x_range=ends,
-    )
+    both = {"marks": marks, "spans": spans, "x_range": ends}
+    torque, left = validation.build_torque_panels("", label, unit, above, below, **both)
     title, caption = f"Joint {joint}: measured and predicted", validation.describe_masks(first, j)
     panels = ((torque,), (left,))
     return Picture(f"torque_{joint}", title, caption, panels, 430, True, (0.6, 0.4))
