@@ -344,8 +344,8 @@ class EquationProposal(ShortRepr):
         similarity: share of its torque that this explains.
         difference: what differs, in plain words.
         final_search: the search with it as its last step, for pictures.
-        discriminating_command: the command that looks for a motion which distinguishes it from
-            the next.
+        discriminating_command: the command that looks for a motion which distinguishes it from the
+            next.
         discriminating_state: the state of the joint in these logs in which they differ most.
     """
 

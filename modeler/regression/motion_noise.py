@@ -515,8 +515,8 @@ class Bands(ShortRepr):
         widest_cutoffs: Hz of both filters, as the motion alone asks for; empty where one was given.
         reasons: sentences.
         limiting_joint: joint that they were lowered for; None if the parallel filter is the widest.
-        chatter_ratio: how many times as much as the measured torque the model's torque varies from
-            row to row behind the first filters of which it is too much; 0 if behind none.
+        chatter_ratio: how many times as much as the measured torque the model's torque varies
+            from row to row behind the first filters of which it is too much; 0 if behind none.
         chatter_ratio_filtered: the same behind the filters that were chosen.
         widest_values: (c,) base parameters behind the widest filters; empty where they were chosen.
     """

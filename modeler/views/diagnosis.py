@@ -294,7 +294,7 @@ def _collect_diagnosis_tables(diagnosis: Diagnosis) -> Tables:
         "alternatives": lambda: Table.build(
             "alternatives to the first effect", "effect, joint, gain", diagnosis.alternatives
         ),
-        "undetectable": lambda: Table.build(*blind, describe_undetectable(diagnosis)),
+        "undetectable effects": lambda: Table.build(*blind, describe_undetectable(diagnosis)),
     }
 
 

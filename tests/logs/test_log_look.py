@@ -87,8 +87,8 @@ def test_what_is_in_a_log_and_the_suggestion_serves_as_a_mapping(log_output, tmp
 def test_gaps_repeats_and_steps_back(inspected, table):
     kept = np.delete(np.arange(len(table["time"])), np.r_[100:103, 2000])
     clock = inspected({name: values[kept] for name, values in table.items()}).clock
-    assert (clock.gaps, clock.lost) == (2, 4)
-    assert (clock.largest, clock.at) == pytest.approx((0.004, 0.099))
+    assert (clock.gaps, clock.lost_rows) == (2, 4)
+    assert (clock.largest_gap, clock.largest_gap_start) == pytest.approx((0.004, 0.099))
     table["time"] = table["time"].copy()
     table["time"][50] = table["time"][49]
     table["time"][70:] -= 0.5
