@@ -9,6 +9,7 @@ from docsite.effects import effects_index, portraits
 from docsite.gallery import exhibits, gallery_front, gallery_index
 from docsite.interface import interface_pages
 from docsite.notebook import last_run, notebook_page
+from docsite.schemas import schema_files
 from modeler.core.choices import list_builtin_robots
 from modeler.effects import CATALOGUE
 
@@ -49,7 +50,7 @@ def on_files(files: "Files", config: "MkDocsConfig") -> "Files":
     from mkdocs.structure.files import File
 
     made: dict[str, str | bytes] = {**beside_pages(), **command_pages(), **interface_pages()}
-    made |= gallery_pages() | notebook_pages()
+    made |= gallery_pages() | notebook_pages() | schema_files()
     made |= {name: (ROOT / "docsite" / name).read_bytes() for name in KEPT}
     for path, content in made.items():
         files.append(File.generated(config, path, content=content))

@@ -109,7 +109,7 @@ def robots_derived_once() -> Iterator[None]:
 
 @pytest.fixture(scope="session", autouse=True)
 def results_are_as_the_schemas_say() -> Iterator[None]:
-    """Whatever a command returns in any test is held against its schema in docs/schema."""
+    """Whatever a command returns in any test is held against its schema."""
     from modeler.cli import console
 
     run_command = console.run_command

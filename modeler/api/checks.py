@@ -18,6 +18,7 @@ from modeler.api.workflow import AnyLog, Logs, are_long, are_too_long, compile_r
 from modeler.core.choices import ABOUT, Method, find_estimator_title
 from modeler.core.errors import DataError
 from modeler.core.jobs import SILENT, Reporter
+from modeler.core.json import Document
 from modeler.core.manifest import JointSpec
 from modeler.core.options import CompareOptions, OptionError
 from modeler.core.table import label_values
@@ -105,7 +106,7 @@ _TRAINING = "training only: "
 
 
 @dataclass(frozen=True, eq=False)
-class ComparisonRun:
+class ComparisonRun(Document):
     """A comparison, and what it is worth.
 
     Attributes:
@@ -116,6 +117,8 @@ class ComparisonRun:
         is_held_out: False if the model was fitted on some of the logs.
         beside: the same model without its load; None without one.
     """
+
+    KEYS = "*comparison warnings"
 
     model: IdentifiedModel
     comparison: validation.Comparison
@@ -147,11 +150,11 @@ class ComparisonRun:
             *(fault.line for fault in self.findings),
         ]
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the comparison for machines, with all doubts."""
+    @property
+    def warnings(self) -> list[str]:
+        """Returns what the values of a robot file leave open, and faults of the logs."""
         stated = [] if self.model.logs else self.model.fit.sentences[1:]
-        doubts = [*stated, *(fault.line for fault in self.findings)]
-        return self.comparison.to_json() | {"warnings": doubts}
+        return [*stated, *(fault.line for fault in self.findings)]
 
 
 def compare_with_provenance(

@@ -25,6 +25,7 @@ from modeler.api.workflow import (
 )
 from modeler.core.errors import DataError
 from modeler.core.jobs import SILENT, Reporter, ignore_progress
+from modeler.core.json import Document
 from modeler.core.options import ExciteOptions, OptionError
 from modeler.effects import find_effect
 from modeler.estimation import FitResult, IdentifiedModel, identify
@@ -300,7 +301,7 @@ def prepare_search(
 
 
 @dataclass(frozen=True, eq=False)
-class FoundMotion:
+class FoundMotion(Document):
     """A motion that was found, with what is expected of it.
 
     Attributes:
@@ -309,6 +310,8 @@ class FoundMotion:
         separation: of two effects along it, where these were asked for.
         forecast: of the sigmas of a log of it: a sentence, and values; None where none is known.
     """
+
+    KEYS = "*motion effects discrimination=separation forecast=forecast_values"
 
     motion: excitation.ExcitingMotion
     effects: Sequence[str]
@@ -322,14 +325,10 @@ class FoundMotion:
             lines = [*self.separation.format_lines(), *lines[2:]]
         return lines if self.forecast is None else [*lines, self.forecast[0]]
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns all of it for machines."""
-        extra: dict[str, Any] = {"effects": list(self.effects)}
-        if self.separation is not None:
-            extra["discrimination"] = self.separation.to_json()
-        if self.forecast is not None:
-            extra["forecast"] = self.forecast[1]
-        return self.motion.to_json() | extra
+    @property
+    def forecast_values(self) -> Mapping[str, Any] | None:
+        """Returns the forecast in numbers."""
+        return None if self.forecast is None else self.forecast[1]
 
 
 def search_motion(
@@ -532,13 +531,18 @@ def parse_question(
 
 
 @dataclass(frozen=True, eq=False)
-class MotionChoice:
+class MotionChoice(Document):
     """The best of some motions.
 
     Attributes:
         robot: name.
         candidates: places of the motions.
         choice: which, and how well each determines the parameters.
+    """
+
+    KEYS = """
+        robot chosen_motions condition_scaled=choice.condition condition_scaled_of_all=choice.whole
+        single_conditions=choice.single_conditions is_exhaustive=choice.is_exhaustive
     """
 
     robot: str
@@ -559,19 +563,10 @@ class MotionChoice:
             f"{len(self.candidates)} {choice.whole:.4g}, columns of length one",
         ]
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the same for machines."""
-        choice = self.choice
-        return {
-            "robot": self.robot,
-            "chosen_motions": [str(self.candidates[k]) for k in choice.places],
-            "condition_scaled": choice.condition,
-            "condition_scaled_of_all": choice.whole if math.isfinite(choice.whole) else None,
-            "single_conditions": [
-                value if math.isfinite(value) else None for value in choice.single_conditions
-            ],
-            "is_exhaustive": choice.is_exhaustive,
-        }
+    @property
+    def chosen_motions(self) -> list[str]:
+        """Returns the places of those chosen."""
+        return [str(self.candidates[k]) for k in self.choice.places]
 
 
 def choose_motions(subject: Subject, candidates: Sequence[str], count: int) -> MotionChoice:

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from modeler.api.thresholds import THRESHOLDS
 from modeler.api.workflow import compile_model, derive, generate
 from modeler.core.errors import DataError
 from modeler.core.expression import parse_expression
+from modeler.core.json import Document
 from modeler.core.options import OptionError
 from modeler.robot import Limits, Robot, suggest_name
 from modeler.runtime import CompiledModel
@@ -199,7 +199,7 @@ def find_nearest_along(
 
 
 @dataclass(frozen=True, eq=False)
-class MotionCheck:
+class MotionCheck(Document):
     """How a motion keeps to the limits, and how near two links come along it.
 
     Attributes:
@@ -211,6 +211,8 @@ class MotionCheck:
         is_measured: True for a log, whose speeds are noisy.
         assumed: joints whose limits nobody states.
     """
+
+    KEYS = "robot=robot.name clearance=clearance_report exceeded_limits=excess"
 
     place: str
     robot: Robot
@@ -230,14 +232,6 @@ class MotionCheck:
             lines.append(f"joint {joints}: no [limits] in the robot file; these are assumed")
         return [*lines, f"{self.place}: {self.clearance.format_line(self.closest_approach)}"]
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the same for machines."""
-        return {
-            "robot": self.robot.name,
-            "clearance": self.clearance.to_json(self.closest_approach),
-            "exceeded_limits": [each.to_json() for each in self.excess],
-        }
-
     def require_passed(self) -> None:
         """Raises an error if two links come too near, or a limit is exceeded."""
         near, margin = self.closest_approach, self.clearance.margin
@@ -253,6 +247,11 @@ class MotionCheck:
                 f"{self.place}, {wrong[0].format_line()}; limits exceeded: {len(wrong)}; take "
                 "another motion, or state other limits: [limits] of the robot file, or {--limits}"
             )
+
+    @property
+    def clearance_report(self) -> excitation.ClearanceReport:
+        """Returns the clearance, and what comes nearest."""
+        return excitation.ClearanceReport(self.clearance, self.closest_approach)
 
 
 def judge_motion(

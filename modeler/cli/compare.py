@@ -7,7 +7,8 @@ from pathlib import Path
 import modeler.api.checks as checks
 from modeler import validation
 from modeler.api.model import is_model_file
-from modeler.cli.console import Json, draw_page, draw_pictures, print_lines
+from modeler.cli.console import draw_page, draw_pictures, print_lines
+from modeler.cli.documents import ComparisonReport
 from modeler.cli.lists import REPORTER, read_robot_with_notes
 from modeler.cli.places import LogFile
 from modeler.core.choices import LOG_ENDINGS
@@ -18,7 +19,9 @@ from modeler.robot import Robot
 from modeler.views import Origin, comparison as pages, suggest_after_compare, suggest_after_stated
 
 
-def run_compare(args: argparse.Namespace) -> Json:
+def run_compare(
+    args: argparse.Namespace,
+) -> checks.ComparisonRun | ComparisonReport | validation.FreeRun:
     """Prints the table and the verdict; writes page and pictures."""
     options = CompareOptions.from_names(vars(args))
     others = [place for place in args.logs if not isinstance(place, LogFile)]
@@ -38,7 +41,7 @@ def run_compare(args: argparse.Namespace) -> Json:
     beside = [] if run.beside is None else pages.draw_model_pictures(run.beside)
     draw_pictures(args.picture, lambda: [*pages.draw_all_pictures(comparison), *beside])
     print_lines([following], "next: ")
-    return run.to_json()
+    return run
 
 
 def _suggest_next(args: argparse.Namespace, run: checks.ComparisonRun) -> str:
@@ -52,7 +55,7 @@ def _suggest_next(args: argparse.Namespace, run: checks.ComparisonRun) -> str:
 
 def _run_model_comparison(
     args: argparse.Namespace, places: Sequence[str], options: CompareOptions
-) -> Json:
+) -> ComparisonReport:
     """Prints the errors by joint and model, and who is better; writes page and pictures."""
     logs = [place for place in args.logs if isinstance(place, LogFile)]
     things = [_read_model(place) for place in places]
@@ -72,7 +75,7 @@ def _run_model_comparison(
     )
     draw_pictures(args.picture, lambda: pages.draw_model_pictures(comparison))
     first = validation.compare(comparison.predictions[0])
-    return first.to_json() | {"models": comparison.as_dicts(), "warnings": []}
+    return ComparisonReport(first, comparison.models, [])
 
 
 def _read_model(place: str) -> IdentifiedModel | Robot:
@@ -85,7 +88,7 @@ def _read_model(place: str) -> IdentifiedModel | Robot:
     return read_robot_with_notes(place)
 
 
-def _run_free_run(args: argparse.Namespace, options: CompareOptions) -> Json:
+def _run_free_run(args: argparse.Namespace, options: CompareOptions) -> validation.FreeRun:
     """Prints the table and the verdict; writes the pictures."""
     settings = checks.build_free_run_settings(options)
     run, model = checks.simulate_positions(
@@ -94,4 +97,4 @@ def _run_free_run(args: argparse.Namespace, options: CompareOptions) -> Json:
     print_lines([*run.summary().splitlines(), *model.warning])
     draw_page(args.report, lambda: pages.build_free_run_page(run, Origin(args.model, run.logs)))
     draw_pictures(args.picture, lambda: validation.draw_free_run_pictures(run))
-    return run.to_json()
+    return run

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from modeler.cli import places
-from modeler.cli.console import Json, print_lines, print_result
+from modeler.cli.console import print_lines, print_result
+from modeler.cli.documents import CompletionScript
 from modeler.cli.parser import (
     ALL,
     collect_arguments,
@@ -52,7 +53,7 @@ complete -c modeler -f -a \
 SCRIPTS = {"bash": _BASH, "zsh": _ZSH, "fish": _FISH}
 
 
-def run_completion(args: argparse.Namespace) -> Json:
+def run_completion(args: argparse.Namespace) -> CompletionScript | list[str]:
     """Prints the script, or what the last word may become."""
     if args.words is None:
         print_result(SCRIPTS[args.shell].rstrip())

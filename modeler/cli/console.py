@@ -325,7 +325,7 @@ SCHEMA = 1
 
 
 def add_schema(command: str, content: Json) -> Json:
-    """Adds the identifier of its schema (docs/schema) to an object."""
+    """Adds the identifier of its schema to an object."""
     if not isinstance(content, dict):
         return content
     return {"schema": f"urn:modeler:schema:{command}:{SCHEMA}", **content}

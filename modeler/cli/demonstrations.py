@@ -3,7 +3,7 @@
 import argparse
 import enum
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
 from modeler import papers
@@ -11,13 +11,13 @@ from modeler.api.checks import compare_with_provenance
 from modeler.api.fitting import fit
 from modeler.api.workflow import compile_model, derive, generate, load, observe, read_logs
 from modeler.cli.console import (
-    Json,
     draw_pictures,
     print_lines,
     print_result,
     show_activity,
     show_progress,
 )
+from modeler.cli.documents import ReproducedPaper, StoryReport
 from modeler.cli.improve import format_waterfall
 from modeler.core.errors import ModelerError
 from modeler.core.table import align_columns
@@ -53,7 +53,7 @@ _STORIES = (
 )
 
 
-def run_demo(args: argparse.Namespace) -> Json:
+def run_demo(args: argparse.Namespace) -> dict[str, StoryReport]:
     """Runs the demonstrations of both built-in stories, and returns their results."""
     check_settings(SimulationSettings(duration=args.duration), ())  # before anything is written
     results = {
@@ -64,7 +64,7 @@ def run_demo(args: argparse.Namespace) -> Json:
     return results
 
 
-def _run_story(story: Story, out: Path, args: argparse.Namespace) -> Json:
+def _run_story(story: Story, out: Path, args: argparse.Namespace) -> StoryReport:
     robot = load(story.robot)
     print_result(f"{robot.title}\n{'=' * len(robot.title)}")
     print_result(f"1. derive and emit C into {out / 'c'}")
@@ -103,7 +103,7 @@ def _run_story(story: Story, out: Path, args: argparse.Namespace) -> Json:
     better = _improve_model(model, compiled, diagnosis, logs, out)
     print_result(f"   the truth: {story.hidden.effect} on joint {story.hidden.joint}\n")
     print_result(f"open {out / 'diagnosis.html'} and {out / 'improved.html'} in a browser\n")
-    return diagnosis.to_json() | {"waterfall": [step.to_json() for step in better.history]}
+    return StoryReport(diagnosis, better.history)
 
 
 def _compare_and_draw(
@@ -150,24 +150,24 @@ METHODS: dict[str, Callable[[papers.Paper, Callable[[float], None]], list[papers
 """Of a paper's identification, run again in simulation."""
 
 
-def run_reproduce(args: argparse.Namespace) -> Json:
+def run_reproduce(args: argparse.Namespace) -> ReproducedPaper:
     """Prints the lines; raises if one is different."""
     paper = papers.read_paper(args.paper)
     if args.picture is not None and args.section == "print":
         raise ModelerError("--picture: figures are of the methods; leave out --section print")
     print_result(paper.title)
     args.after, args.different = check_reproduced, []
-    result: dict[str, object] = {"paper": paper.name}
+    result: ReproducedPaper = {"paper": paper.name}
     if args.section != "methods":
         lines = _check_lines(paper)
         args.different += [
             line.printed_text for line in lines if line.verdict is papers.LineVerdict.DIFFERENT
         ]
-        result["lines"] = [asdict(line) | {"verdict": line.verdict.value} for line in lines]
+        result["lines"] = lines
     if args.section != "print":
         tables = _run_methods(paper)
         args.different += _collect_failed(tables)
-        result["methods"] = [_convert_table(table) for table in tables]
+        result["methods"] = tables
         pictures = [table.picture for table in tables if table.picture is not None]
         if args.picture is not None and not pictures:
             raise ModelerError(f"--picture: {paper.name} has no figure to draw; leave it out")
@@ -256,8 +256,3 @@ def _collect_failed(tables: Sequence[papers.MethodTable]) -> list[str]:
         for row in table.rows
         if row.outcome is papers.Outcome.FAILED
     ]
-
-
-def _convert_table(table: papers.MethodTable) -> dict[str, object]:
-    rows = [asdict(row) | {"outcome": row.outcome.value} for row in table.rows]
-    return {"title": table.title, "settings": list(table.settings), "rows": rows}

@@ -19,6 +19,7 @@ from modeler.cli.console import (
     show_activity,
     show_next,
 )
+from modeler.cli.documents import DerivationReport, GeneratedFolder
 from modeler.cli.lists import read_robot_or_model, read_robot_with_effects, resolve_robot
 from modeler.cli.parser import FEW_JOINTS, Form
 from modeler.cli.thresholds import THRESHOLDS
@@ -148,7 +149,7 @@ _COMMENT: dict[Form, str] = {"text": "# ", "latex": "", "markdown": "* "}
 _FORMS = ("closed_form", "regressor", "blocks", "energy", "kane")
 
 
-def run_derive(args: argparse.Namespace) -> Json:
+def run_derive(args: argparse.Namespace) -> DerivationReport:
     """Prints relations, proof, and for small robots the coefficients."""
     if args.document and args.format != "latex":
         raise ModelerError("--document is a whole page of LaTeX; add --format latex")
@@ -168,7 +169,7 @@ def run_derive(args: argparse.Namespace) -> Json:
         check_loops(args, derivation)
         opinion = compare_with_lagrange(derivation)
     base = derivation.base
-    result = relations.serialise_base_parameters(robot.name, base) | {
+    result: Json = relations.serialise_base_parameters(robot.name, base) | {
         "newton_euler_against_lagrange": opinion
     }
     counts = ", ".join(f"{n} {kind}" for kind, n in base.count_by_kind().items() if n)
@@ -375,7 +376,7 @@ def _describe_coefficients(table: "CoefficientTable") -> list[str]:
 # `modeler generate ROBOT|MODEL --out DIR`.
 
 
-def run_generate(args: argparse.Namespace) -> Json:
+def run_generate(args: argparse.Namespace) -> GeneratedFolder:
     """Writes the folder and says what is in it."""
     options = GenerateOptions.from_names(vars(args))
     thing = read_robot_or_model(args)
@@ -404,7 +405,11 @@ def run_generate(args: argparse.Namespace) -> Json:
             f"{args.out}: {name} is of an earlier generate and belongs to this code no more; it "
             "was edited since, so it stays: remove it, or keep it elsewhere"
         )
-    result: Json = {"robot": spec.robot, "folder": args.out, "files": sorted(emitted.files)}
+    result: GeneratedFolder = {
+        "robot": spec.robot,
+        "folder": args.out,
+        "files": sorted(emitted.files),
+    }
     if spec.control is not None and spec.control.functions:
         print_result(f"for controllers, in {spec.prefix}_control.h:")
         print_lines(map(_describe_function, spec.control.functions), "  ")

@@ -4,26 +4,20 @@ import argparse
 import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from modeler.api import checks, fitting
 from modeler.api.log_maps import resolve_mapping
 from modeler.api.workflow import build_processing, compile_robot
-from modeler.cli.console import (
-    Json,
-    draw_result,
-    print_lines,
-    print_result,
-    show_activity,
-    show_next,
-)
+from modeler.cli.console import draw_result, print_lines, print_result, show_activity, show_next
+from modeler.cli.documents import FitReport, MethodsReport
 from modeler.cli.lists import REPORTER, read_options, resolve_robot
 from modeler.cli.parser import ALL, Methods
 from modeler.core.choices import ABOUT, GAIN_METHOD
 from modeler.core.files import write_atomically
 from modeler.core.options import FitOptions, OptionError
 from modeler.core.table import align_columns
-from modeler.estimation import IdentifiedModel, save_model
+from modeler.estimation import FitResult, IdentifiedModel, save_model
 from modeler.formats import read_robot
 from modeler.regression import Observation, Processing
 from modeler.robot import replace_fitted_values
@@ -36,8 +30,11 @@ from modeler.views import (
     tabulate_estimators,
 )
 
+if TYPE_CHECKING:
+    from modeler.validation import Fleet
 
-def run_fit(args: argparse.Namespace) -> Json:
+
+def run_fit(args: argparse.Namespace) -> FitReport | MethodsReport:
     """Fits the logs, prints the table, saves the model."""
     options = read_options(args, FitOptions, "fit", read_robot(args.robot).fit)
     method = Methods(options.method)
@@ -58,7 +55,8 @@ def run_fit(args: argparse.Namespace) -> Json:
         reporter=REPORTER,
         dask=args.dask,
     )
-    return _write_model(args, table, model, observation, outcome.lines) | outcome.further
+    fit = _write_model(args, table, model, observation, outcome.lines)
+    return FitReport(fit, outcome.further.get("two_step"))
 
 
 _OF_ONE = ("out", "robot_out", "payload_log", "window", "essential_below", "dask")
@@ -94,7 +92,7 @@ def _write_model(
     model: IdentifiedModel,
     observation: Observation,
     lines: Sequence[str] = (),
-) -> Json:
+) -> FitResult:
     """Saves and prints the model, which keeps the mapping."""
     model = dataclasses.replace(model, mapping=mapping)
     save_model(args.out, model)
@@ -116,13 +114,15 @@ def _write_model(
     print_result(verdict)
     logs = [*args.logs, *args.payload_log]
     show_next(suggest_after_fit(args.out, logs, args.robot, model.fit, args.mapping))
-    return model.fit.to_json()
+    return model.fit
 
 
 # Several methods on the same logs.
 
 
-def _compare_methods(args: argparse.Namespace, method: Methods, processing: Processing) -> Json:
+def _compare_methods(
+    args: argparse.Namespace, method: Methods, processing: Processing
+) -> MethodsReport:
     """Prints what each estimator makes of the logs; writes no model."""
     result = checks.compare_methods(
         *(resolve_robot(args), args.logs, args.holdout),
@@ -139,17 +139,13 @@ def _compare_methods(args: argparse.Namespace, method: Methods, processing: Proc
     print_lines([*lines, *(row.rstrip() for table in tables for row in ("", *table)), ""])
     print_lines(f"{name}: {remark}" for name, remark in collect_remarks(tried))
     draw_result(args, lambda: build_estimators_page(args.robot, tried, lines))
-    return {
-        "training": list(args.logs),
-        "holdout": list(args.holdout),
-        "methods": [trial.to_json() for trial in tried],
-    }
+    return {"training": list(args.logs), "holdout": list(args.holdout), "methods": list(tried)}
 
 
 # Many machines and days.
 
 
-def run_fleet(args: argparse.Namespace) -> Json:
+def run_fleet(args: argparse.Namespace) -> "Fleet":
     """Prints what drifts; writes the page."""
     from modeler.api.fleets import fleet
     from modeler.validation import format_fleet
@@ -166,4 +162,4 @@ def run_fleet(args: argparse.Namespace) -> Json:
     )
     print_lines(format_fleet(result))
     draw_result(args, lambda: build_fleet_page(result))
-    return result.to_json()
+    return result

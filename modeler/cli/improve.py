@@ -6,7 +6,6 @@ from pathlib import Path
 import modeler.api.improve as improve
 from modeler import views
 from modeler.cli.console import (
-    Json,
     draw_result,
     print_lines,
     print_result,
@@ -14,6 +13,7 @@ from modeler.cli.console import (
     show_next,
     write_pictures,
 )
+from modeler.cli.documents import AdditionReport, DiagnosisReport
 from modeler.cli.lists import REPORTER, read_options
 from modeler.core.files import write_atomically
 from modeler.core.options import AddOptions, DiagnoseOptions
@@ -25,7 +25,7 @@ from modeler.robot import parse_robot_text
 _WIDTH = 40  # characters of the longest bar
 
 
-def run_diagnose(args: argparse.Namespace) -> Json:
+def run_diagnose(args: argparse.Namespace) -> DiagnosisReport:
     """Prints the verdict, the effects and what cannot be determined."""
     model = load_model(args.model)
     robot = parse_robot_text(model.robot_text, f"{args.model}, robot")
@@ -40,13 +40,13 @@ def run_diagnose(args: argparse.Namespace) -> Json:
     draw_result(args, lambda: _build_page(args, model, diagnosis, following))
     if not args.add:
         show_next(following)
-        return diagnosis.to_json()
+        return DiagnosisReport(diagnosis)
     with show_activity("adding what was found"):
         better, left_out = improve.add_proposals(case, diagnosis)
     save_model(args.out, better)
     print_lines([*format_waterfall(better), *describe_last_addition(better), *left_out])
     print_lines([args.out], "written: ")
-    return diagnosis.to_json() | {"not_added": list(left_out)}
+    return DiagnosisReport(diagnosis, left_out)
 
 
 def _build_page(
@@ -63,7 +63,7 @@ def _build_page(
     return views.build_diagnosis_page(diagnosis, provenance, origin)
 
 
-def run_add(args: argparse.Namespace) -> Json:
+def run_add(args: argparse.Namespace) -> AdditionReport:
     """Adds, saves, draws the waterfall."""
     model = load_model(args.model)
     better, left_out = improve.add_to_model(
@@ -94,8 +94,7 @@ def run_add(args: argparse.Namespace) -> Json:
         print_result(f"now: {better.fit.verdict.line}")
     print_lines(places, "written: ")
     show_next(following)
-    steps = [step.to_json() for step in better.history]
-    return better.fit.to_json() | {"waterfall": steps, "not_added": list(left_out)}
+    return AdditionReport(better.fit, better.history, left_out)
 
 
 def format_waterfall(model: IdentifiedModel) -> list[str]:

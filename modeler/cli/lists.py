@@ -6,22 +6,15 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from modeler.cli.console import (
-    Json,
-    print_lines,
-    print_note,
-    print_result,
-    show_activity,
-    show_progress,
-)
+from modeler.cli.console import print_lines, print_note, print_result, show_activity, show_progress
+from modeler.cli.documents import EffectSummary, RobotFile, RobotSummary
 from modeler.cli.parser import describe_unknown
 from modeler.cli.places import Output, check_places
 from modeler.cli.thresholds import THRESHOLDS
-from modeler.core.choices import ABOUT, list_builtin_robots
+from modeler.core.choices import ABOUT, EstimatorInfo, list_builtin_robots
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import write_all_without_overwriting
 from modeler.core.jobs import Reporter
-from modeler.core.json import select_attributes
 from modeler.core.options import OptionError, Options
 from modeler.core.toml_cells import quote_value
 from modeler.effects import CATALOGUE, Effect, Form, find_effect
@@ -157,7 +150,7 @@ def read_robot_with_notes(name: str) -> Robot:
     return robot
 
 
-def run_robots(args: argparse.Namespace) -> Json:
+def run_robots(args: argparse.Namespace) -> RobotFile | list[RobotSummary]:
     """Prints the table of built-in robots, or one robot's file."""
     if args.robot is not None:
         text = read_robot_with_notes(args.robot).text
@@ -182,7 +175,7 @@ def run_robots(args: argparse.Namespace) -> Json:
     ]
 
 
-def run_effects(args: argparse.Namespace) -> Json:
+def run_effects(args: argparse.Namespace) -> list[EffectSummary]:
     """Prints the catalogue, or one page of it; writes an effect of a robot as files."""
     model = robot = None
     if args.robot is not None and Path(args.robot).suffix.lower() == ".json":
@@ -218,7 +211,9 @@ def run_effects(args: argparse.Namespace) -> Json:
     return facts
 
 
-def _export_effect(args: argparse.Namespace, robot: Robot, model: "IdentifiedModel | None") -> Json:
+def _export_effect(
+    args: argparse.Namespace, robot: Robot, model: "IdentifiedModel | None"
+) -> list[EffectSummary]:
     """Writes the definition of one effect, and its page."""
     from modeler import views  # the catalogue needs no pages
 
@@ -242,7 +237,7 @@ def _export_effect(args: argparse.Namespace, robot: Robot, model: "IdentifiedMod
     return [_describe_effect(effect)]
 
 
-def run_estimators(args: argparse.Namespace) -> Json:
+def run_estimators(args: argparse.Namespace) -> list[EstimatorInfo]:
     """Prints the list, or some of it."""
     method_ids = list(ABOUT) if args.methods is None else args.methods.split(",")
     if unknown := [name for name in method_ids if name not in ABOUT]:
@@ -254,13 +249,10 @@ def run_estimators(args: argparse.Namespace) -> Json:
         print_result(f"  source     {about.source}")
         print_result(f"  not        {about.limitations}")
         print_result(f"  assumes    {about.motion}")
-    return [
-        {"method": a.id} | select_attributes(a, "title law source limitations motion")
-        for a in chosen
-    ]
+    return chosen
 
 
-def _describe_effect(effect: Effect) -> dict[str, str | list[str]]:
+def _describe_effect(effect: Effect) -> EffectSummary:
     return {
         "id": effect.id,
         "aliases": list(effect.aliases),

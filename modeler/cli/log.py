@@ -18,12 +18,12 @@ from modeler.api.log_maps import (
     read_mapped_log,
 )
 from modeler.api.workflow import are_long, are_too_long
-from modeler.cli.console import Json, print_lines, print_result, show_activity, write_pictures
+from modeler.cli.console import print_lines, print_result, show_activity, write_pictures
+from modeler.cli.documents import LogReport
 from modeler.cli.lists import read_robot_with_notes
 from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.errors import BuildError, ModelerError, flatten_message
 from modeler.core.files import write_atomically
-from modeler.core.json import convert_to_plain
 from modeler.core.table import align_columns, format_percent
 from modeler.estimation import FitResult, find_log_faults, identify, stream_logs
 from modeler.logs import LogInspection, LogMap, find_marks, keep_longest, parse_map_options
@@ -47,7 +47,7 @@ from modeler.views import (
 _WIDEST = 44  # letters of a cell
 
 
-def run_log(args: argparse.Namespace) -> Json:
+def run_log(args: argparse.Namespace) -> LogReport:
     """Prints what the log holds, its warnings, and a [log] to start from."""
     compiled = described = uncompiled = None
     if args.write:
@@ -111,10 +111,7 @@ def run_log(args: argparse.Namespace) -> Json:
         places.append(write_pictures(args.picture, draw_log_pictures(inspection, bands)))
     if places:
         print_result(f"written: {', '.join(places)}")
-    plain = [dataclasses.asdict(mark) for mark in marks]
-    return convert_to_plain(
-        inspection.to_json() | {"warnings": doubts, "bands": bands, "marks": plain}
-    )
+    return LogReport(inspection, doubts, bands, marks)
 
 
 def _format_inspection(

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import modeler.api.motion as motions
 from modeler import excitation, simulation
-from modeler.api.motion_bounds import judge_motion
+from modeler.api.motion_bounds import MotionCheck, judge_motion
 from modeler.api.thresholds import THRESHOLDS
-from modeler.cli.console import Json, print_lines, print_result, show_activity
+from modeler.cli.console import print_lines, print_result, show_activity
+from modeler.cli.documents import SimulatedRun
 from modeler.cli.lists import REPORTER, read_robot_or_model, resolve_robot
 from modeler.core.files import write_atomically
 from modeler.core.json import select_attributes
@@ -17,7 +18,9 @@ from modeler.core.table import format_percent
 from modeler.robot import Robot
 
 
-def run_excite(args: argparse.Namespace) -> Json:
+def run_excite(
+    args: argparse.Namespace,
+) -> motions.FoundMotion | MotionCheck | motions.MotionChoice:
     """Finds a motion and writes it, or chooses among motions, or looks at one."""
     if args.out is not None:
         simulation.check_suffix(Path(args.out))
@@ -38,14 +41,14 @@ def run_excite(args: argparse.Namespace) -> Json:
         with show_activity("building the rows of the motions"):
             choice = motions.choose_motions(subject, args.logs, args.choose)
         print_lines(choice.format_lines())
-        return choice.to_json()
+        return choice
     if args.check is not None:
         with show_activity(f"looking at {args.check}"):
             check = judge_motion(subject.robot, subject.compiled, bounds, args.check, args.limits)
         print_lines(check.format_lines())
         _draw_nearest(args, subject.robot, bounds, check.closest_approach)
         check.require_passed()
-        return check.to_json()
+        return check
     result = motions.search_motion(
         subject, bounds, options, args.logs, between=args.between, reporter=REPORTER
     )
@@ -64,7 +67,7 @@ def run_excite(args: argparse.Namespace) -> Json:
             drawn = excitation.draw_motion(motion, subject.compiled, picture_kind)
         write_atomically(Path(args.picture), drawn)
         print_result(f"written: {args.picture}")
-    return result.to_json()
+    return result
 
 
 def _draw_nearest(
@@ -85,7 +88,7 @@ _SETTINGS = "rate seed parameter_seed encoder_counts process_noise controller"
 """Options of `modeler simulate` that are settings of the simulation by the same name."""
 
 
-def run_simulate(args: argparse.Namespace) -> Json:
+def run_simulate(args: argparse.Namespace) -> SimulatedRun:
     """Simulates and writes the log."""
     simulation.check_suffix(Path(args.out))
     robot = resolve_robot(args)
@@ -125,6 +128,6 @@ def run_simulate(args: argparse.Namespace) -> Json:
         "joints": list(log.joints),
         "parameters": dict(log.truth.parameters),
         "random_parameters": list(log.truth.random_parameters),
-        "hidden_effects": simulation.serialise_hidden_effects(log),
+        "hidden_effects": list(log.truth.hidden_effects),
         "range_share": log.range_share,
     }

@@ -211,7 +211,7 @@ def _add_command(commands: Any, name: str, command: Mapping[str, Any]) -> None:
                 group.add_argument(word, **_build_settings(word, entry))
     merged = {word: entry for each in (arguments, *groups.values()) for word, entry in each.items()}
     _set_rules(parser, merged)
-    parser.set_defaults(load=partial(_import_run, command["run"]))
+    parser.set_defaults(load=partial(import_run, command["run"]))
 
 
 def _set_rules(parser: "_Parser", entries: Mapping[str, Any]) -> None:
@@ -234,7 +234,8 @@ def _set_rules(parser: "_Parser", entries: Mapping[str, Any]) -> None:
     parser.set_defaults(rules=rules, option_words=written)
 
 
-def _import_run(place: str) -> Run:
+def import_run(place: str) -> Run:
+    """Returns the function of a command, by its place as `fit:run_fit`."""
     module, _, function = place.partition(":")
     run: Run = getattr(import_module(f"modeler.cli.{module}"), function)
     return run

@@ -13,6 +13,7 @@ from modeler.cli.console import (
     show_activity,
     show_progress,
 )
+from modeler.cli.documents import PhysicalReport
 from modeler.cli.lists import read_robot_with_notes
 from modeler.cli.thresholds import THRESHOLDS
 from modeler.codegen import derive
@@ -23,7 +24,7 @@ from modeler.estimation import load_model
 _PLURALS = {"mass": "masses", "centre": "mass centres"}  # of kinds; others take an s
 
 
-def run_physical(args: argparse.Namespace) -> Json:
+def run_physical(args: argparse.Namespace) -> PhysicalReport:
     """Prints what was requested; what there is to know if nothing was."""
     model = load_model(args.source) if Path(args.source).suffix.lower() == ".json" else None
     thing = derive(read_robot_with_notes(args.source)) if model is None else model
@@ -32,7 +33,7 @@ def run_physical(args: argparse.Namespace) -> Json:
     system = subject.system
     for line in () if model is None else model.warning:
         print_note(line)
-    result: dict[str, Json] = {"robot": system.robot, "from": system.source}
+    result: Json = {"robot": system.robot, "source": system.source}
     if args.known is not None:
         result |= _print_known(args, subject)
     cad = None if args.cad is None else subject.read_cad(args.cad)

@@ -16,6 +16,13 @@ from modeler.cli.console import (
     show_activity,
     show_next,
 )
+from modeler.cli.documents import (
+    AssemblyModes,
+    ConvertedRobot,
+    ExportReport,
+    ShownRobot,
+    WrittenRobot,
+)
 from modeler.cli.lists import read_robot_with_notes
 from modeler.cli.places import Output, check_places
 from modeler.cli.thresholds import THRESHOLDS
@@ -50,7 +57,7 @@ _FILES = (
 )
 
 
-def run_new(args: argparse.Namespace) -> Json:
+def run_new(args: argparse.Namespace) -> WrittenRobot:
     """Writes a robot file to start from, by questions on a terminal."""
     out = Path(args.file)
     check_new_robot(out, args.force)
@@ -71,7 +78,7 @@ def run_new(args: argparse.Namespace) -> Json:
     return _describe_robot(robot, out)
 
 
-def _describe_robot(robot: Robot, out: Path) -> Json:
+def _describe_robot(robot: Robot, out: Path) -> WrittenRobot:
     """What a script learns of a robot file that was written."""
     joints, loops = ([one.name for one in many] for many in (robot.moving_joints, robot.loops))
     return {"robot": robot.name, "out": str(out), "joints": joints, "loops": loops}
@@ -100,7 +107,7 @@ def _ask_question(question: str, default: str, key: str) -> str:
             print_error(str(error))
 
 
-def run_convert(args: argparse.Namespace) -> Json:
+def run_convert(args: argparse.Namespace) -> ConvertedRobot:
     """Writes the robot file, when it has been read as one; prints the notes."""
     lock = parse_lock_values(args.lock)
     robot = convert(args.file, args.out, args.base, args.tip, lock, args.exact_decimals, args.force)
@@ -114,7 +121,7 @@ def run_convert(args: argparse.Namespace) -> Json:
     }
 
 
-def run_show(args: argparse.Namespace) -> Json:
+def run_show(args: argparse.Namespace) -> ShownRobot:
     """Writes the page and the picture; prints the frames at home and whether the loops close."""
     robot = read_robot_with_notes(args.robot)
     if args.out is None and (args.picture is None or args.open):
@@ -126,13 +133,14 @@ def run_show(args: argparse.Namespace) -> Json:
     places = {"page": args.out, "picture": args.picture}
     written = {what: str(place) for what, place in places.items() if place is not None}
     print_lines(f"{what}: {place}" for what, place in written.items())
-    return {**serialise_posture(drawing.skeleton, drawing.posture), **written}
+    shown: Json = serialise_posture(drawing.skeleton, drawing.posture)
+    return {**shown, **written}
 
 
 MODE_PICTURES = (*PICTURE_KINDS, ".html")
 
 
-def run_home(args: argparse.Namespace) -> Json:
+def run_home(args: argparse.Namespace) -> AssemblyModes:
     """Prints the assembly modes, draws them, writes one into the robot file."""
     from modeler.api import postures  # symbols take long to load
     from modeler.derivation import express_as_home
@@ -241,7 +249,7 @@ def _format_values(linkage: "Linkage", u: np.ndarray, places: list[int]) -> str:
     return ", ".join(texts)
 
 
-def run_export(args: argparse.Namespace) -> Json:
+def run_export(args: argparse.Namespace) -> ExportReport:
     """Writes the file; prints its numbers and what it cannot hold."""
     from modeler.api.exporting import export  # equations and models take long to load
     from modeler.api.model import open_model
@@ -266,4 +274,4 @@ def run_export(args: argparse.Namespace) -> Json:
             ]
         )
     print_lines(lines, "* ")
-    return {**exported.to_dict(), "out": str(args.out)}
+    return ExportReport(exported, str(args.out))

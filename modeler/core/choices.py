@@ -10,6 +10,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal, cast, get_args
 
+from modeler.core.json import Document
+
 _PACKAGE = Path(__file__).resolve().parents[1]
 _CHOICES: Mapping[str, Any] = tomllib.loads(
     Path(__file__).with_name("choices.toml").read_text("utf-8")
@@ -109,7 +111,7 @@ def list_papers() -> tuple[str, ...]:
 
 
 @dataclass(frozen=True)
-class EstimatorInfo:
+class EstimatorInfo(Document):
     """An estimator in words.
 
     Attributes:
@@ -120,6 +122,8 @@ class EstimatorInfo:
         limitations: when not to use it.
         motion: what it assumes of the noise of the measured motion.
     """
+
+    KEYS = "method=id title law source limitations motion"
 
     id: str
     title: str

@@ -4,13 +4,20 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import Any, Final, Literal, TypedDict, get_args
 
 import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.files import read_text
-from modeler.core.json import JsonError, SchemaError, build_instance, convert_to_plain, parse_json
+from modeler.core.json import (
+    Document,
+    JsonError,
+    SchemaError,
+    build_instance,
+    convert_to_plain,
+    parse_json,
+)
 
 # Okabe and Ito, "Color Universal Design" (2008): distinguished by colour-blind readers.
 BLACK, ORANGE, BLUE, VERMILLION = "#000000", "#E69F00", "#0072B2", "#D55E00"
@@ -65,10 +72,21 @@ class Style:
 # What a picture is, whoever draws it: panels of series, nothing about matplotlib or plotly.
 
 
+class _Drawn(Document):
+    """A series; a file names its kind by the class."""
+
+    @property
+    def kind(self) -> str:
+        """Returns the name of its class, in small letters."""
+        return type(self).__name__.lower()
+
+
 @dataclass(frozen=True, eq=False)
-class Curve:
+class Curve(_Drawn):
     """A line; NaN breaks it."""
 
+    KEYS = "kind label x y style"
+
     label: str
     x: np.ndarray
     y: np.ndarray
@@ -76,9 +94,11 @@ class Curve:
 
 
 @dataclass(frozen=True, eq=False)
-class Points:
+class Points(_Drawn):
     """A series drawn as dots."""
 
+    KEYS = "kind label x y style"
+
     label: str
     x: np.ndarray
     y: np.ndarray
@@ -86,8 +106,10 @@ class Points:
 
 
 @dataclass(frozen=True, eq=False)
-class Means:
+class Means(_Drawn):
     """Dots, joined by a line if that has a width, with whiskers of plus and minus `error`."""
+
+    KEYS = "kind label x y error style"
 
     label: str
     x: np.ndarray
@@ -97,8 +119,10 @@ class Means:
 
 
 @dataclass(frozen=True, eq=False)
-class Band:
+class Band(_Drawn):
     """What lies between two curves over the same x, filled; NaN breaks it."""
+
+    KEYS = "kind label x low high style"
 
     label: str
     x: np.ndarray
@@ -108,8 +132,10 @@ class Band:
 
 
 @dataclass(frozen=True, eq=False)
-class Bars:
+class Bars(_Drawn):
     """One bar for each name, its number printed at its end; inside it where bars are stacked."""
+
+    KEYS = "kind label names values texts style base"
 
     label: str
     names: tuple[str, ...]
@@ -120,8 +146,10 @@ class Bars:
 
 
 @dataclass(frozen=True, eq=False)
-class Heat:
+class Heat(_Drawn):
     """Cells coloured white (0) to blue (`top`), the number printed in each; NaN stays empty."""
+
+    KEYS = "kind label columns rows values texts top"
 
     label: str
     columns: tuple[str, ...]
@@ -241,29 +269,22 @@ def thin_points(x: np.ndarray, y: np.ndarray, limit: int = LIMIT) -> np.ndarray:
 # Pictures as plain data in a file, and back: every number in full, whoever draws them.
 
 
-SCHEMA = "urn:modeler:schema:pictures:1"
+SCHEMA: Final = "urn:modeler:schema:pictures:1"
 
 _KINDS = {kind.__name__.lower(): kind for kind in get_args(Series)}
 
 
+class PictureFile(TypedDict):
+    """A file of pictures."""
+
+    schema: Literal["urn:modeler:schema:pictures:1"]
+    pictures: list[Picture]
+
+
 def format_pictures(pictures: Sequence[Picture]) -> str:
     """Returns the text of a file of pictures; a number that is not finite is null."""
-    plain = convert_to_plain(
-        {"schema": SCHEMA, "pictures": [_convert_picture(picture) for picture in pictures]}
-    )
-    return json.dumps(plain, allow_nan=False, ensure_ascii=False) + "\n"
-
-
-def _convert_picture(picture: Picture) -> dict[str, Any]:
-    rows = [
-        [vars(panel) | {"series": [_get_kind(s) | vars(s) for s in panel.series]} for panel in row]
-        for row in picture.panels
-    ]
-    return vars(picture) | {"panels": rows}
-
-
-def _get_kind(series: Series) -> dict[str, Any]:
-    return {"kind": type(series).__name__.lower()}
+    content: PictureFile = {"schema": SCHEMA, "pictures": list(pictures)}
+    return json.dumps(convert_to_plain(content), allow_nan=False, ensure_ascii=False) + "\n"
 
 
 def read_pictures(path: str | Path) -> tuple[Picture, ...]:

@@ -1,6 +1,7 @@
 """JSON both ways: dataclasses from plain data, every entry checked; texts without NaN."""
 
 import dataclasses
+import enum
 import json
 import math
 import reprlib
@@ -9,7 +10,8 @@ import tomllib
 import types
 from collections.abc import Mapping
 from functools import cache
-from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+from operator import attrgetter
+from typing import Any, ClassVar, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 # JSON and TOML that others wrote, read strictly; JSON that we write, without false numbers.
 
@@ -64,7 +66,9 @@ def convert_to_plain(content: Any) -> Any:
     Arrays and tuples become lists; a result is what its `to_json` says, another dataclass an
     object with its fields.
     """
-    if hasattr(content, "tolist"):
+    if isinstance(content, enum.Enum):
+        content = content.value
+    elif hasattr(content, "tolist"):
         content = content.tolist()
     elif dataclasses.is_dataclass(content):
         content = content.to_json() if hasattr(content, "to_json") else vars(content)
@@ -88,6 +92,48 @@ def format_json(value: Any, indent: str = "", width: int = 160) -> str:
     ]
     first, last = "{}" if keys else "[]"
     return f"{first}\n" + ",\n".join(parts) + f"\n{indent}{last}"
+
+
+class Document:
+    """A base class of results whose JSON is an object.
+
+    Attributes:
+        KEYS: of the object, spaces between. `rms` is the attribute of that name;
+            `max=largest.value` another, null where a part of its path is None; with
+            `joints=joints[name]` the entries of a sequence become an object by their names; `*fit`
+            stands for the keys of another document.
+    """
+
+    KEYS: ClassVar[str] = ""
+
+    def to_json(self) -> dict[str, Any]:
+        """Returns what scripts read: plain data, null for numbers that mean nothing."""
+        document: dict[str, Any] = {}
+        for key, path in parse_keys(self.KEYS).items():
+            value = convert_to_plain(_follow_path(self, path))
+            document |= (value or {}) if key.startswith("*") else {key: value}
+        return document
+
+
+@dataclasses.dataclass(frozen=True)
+class Change:
+    """A number before and after something; None where it is not known."""
+
+    before: float | None
+    after: float | None
+
+
+def parse_keys(keys: str) -> dict[str, str]:
+    """Returns {key: path of its attribute} of `Document.KEYS`; of `*fit` {"*fit": "fit"}."""
+    pairs = (word.partition("=") for word in keys.split())
+    return {key: path or key.removeprefix("*") for key, _, path in pairs}
+
+
+def _follow_path(thing: Any, path: str) -> Any:
+    path, _, name = path.partition("[")
+    for attribute in path.split("."):
+        thing = None if thing is None else getattr(thing, attribute)
+    return {attrgetter(name[:-1])(entry): entry for entry in thing} if name else thing
 
 
 def select_attributes(thing: Any, names: str) -> dict[str, Any]:

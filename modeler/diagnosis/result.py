@@ -4,12 +4,12 @@ import math
 import textwrap
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from modeler.core.brief import ShortRepr
-from modeler.core.json import convert_to_plain, select_attributes
+from modeler.core.json import Document
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Result
 from modeler.core.table import format_error_pair, format_percent
@@ -30,12 +30,23 @@ Key = tuple[str, str | None]
 """Effect and joint; the joint of an effect of the whole robot is None."""
 
 
-def _describe_key(key: Key) -> dict[str, str | None]:
-    return dict(zip(("effect", "joint"), key, strict=True))
+@dataclass(frozen=True)
+class EffectPlace:
+    """An effect and its joint; None of the whole robot."""
+
+    effect: str
+    joint: str | None
 
 
 @dataclass(frozen=True)
-class CrossCheck:
+class Alternative(EffectPlace):
+    """Another effect in place of the first one, and the variance reduction with it."""
+
+    gain: float
+
+
+@dataclass(frozen=True)
+class CrossCheck(Document):
     """What another look says of one effect.
 
     Attributes:
@@ -50,17 +61,18 @@ class CrossCheck:
             unknown.
     """
 
+    KEYS = "leading_effect=leading_place label agrees variance_reduction expected_reduction"
+
     label: str
     leading_effect: Key | None
     agrees: bool
     variance_reduction: float = math.nan
     expected_reduction: float = 0.0
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns what the other look says of the effect, as plain data."""
-        leads = None if self.leading_effect is None else _describe_key(self.leading_effect)
-        names = "label agrees variance_reduction expected_reduction"
-        return {"leading_effect": leads, **select_attributes(self, names)}
+    @property
+    def leading_place(self) -> EffectPlace | None:
+        """Returns the effect that leads there on its joint; None if nothing surely does."""
+        return None if self.leading_effect is None else EffectPlace(*self.leading_effect)
 
 
 @dataclass(frozen=True)
@@ -248,7 +260,7 @@ class FittedCandidate(ShortRepr):
 
 
 @dataclass(frozen=True)
-class Finding(ShortRepr):
+class Finding(ShortRepr, Document):
     """One missing effect.
 
     Attributes:
@@ -272,6 +284,11 @@ class Finding(ShortRepr):
         is_first: True if nothing was named before it.
         pick: what `modeler add` puts in; None for contacts and play.
         is_event: True if it came once.
+    """
+
+    KEYS = """
+        effect joint status gain error_before error_after parameters sigmas intervals units ties
+        evidence explained_fraction caveat warning splits=cross_checks
     """
 
     effect: str
@@ -304,7 +321,7 @@ class Finding(ShortRepr):
         return closed and sure and self.is_first
 
     @property
-    def status(self) -> str:
+    def status(self) -> Literal["confirmed", "likely", "possible"]:
         """Returns "confirmed" of what is stated as missing, else "likely" or "possible"."""
         if self.warning:
             return "possible"
@@ -317,19 +334,14 @@ class Finding(ShortRepr):
         before = self.error_before
         return 1.0 - (self.error_after / before) ** 2 if before > 0.0 else math.nan
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the missing effect as plain data."""
-        return {
-            **select_attributes(self, "effect joint status gain error_before error_after"),
-            **select_attributes(self, "parameters sigmas intervals units"),
-            "ties": list(map(_describe_key, self.equivalents)),
-            **select_attributes(self, "evidence explained_fraction caveat warning"),
-            "splits": [check.to_json() for check in self.cross_checks],
-        }
+    @property
+    def ties(self) -> tuple[EffectPlace, ...]:
+        """Returns effects that the data do not tell from it."""
+        return tuple(EffectPlace(*key) for key in self.equivalents)
 
 
 @dataclass(frozen=True, eq=False)
-class EquationProposal(ShortRepr):
+class EquationProposal(ShortRepr, Document):
     """An equation for what has no name on a joint.
 
     Attributes:
@@ -347,6 +359,14 @@ class EquationProposal(ShortRepr):
         discriminating_command: the command that looks for a motion which distinguishes it from the
             next.
         discriminating_state: the state of the joint in these logs in which they differ most.
+    """
+
+    KEYS = """
+        effect=finding.effect joint=finding.joint error_before=finding.error_before
+        error_after=finding.error_after gain=finding.gain parameters=finding.parameters
+        sigmas=finding.sigmas intervals=finding.intervals units=finding.units text equation
+        effects_line explained_share symbols replaced_effects nearest_effect similarity
+        difference discriminating_command discriminating_state
     """
 
     finding: Finding
@@ -401,19 +421,9 @@ class EquationProposal(ShortRepr):
         """Formats these, and the text to paste."""
         return [*self.summary_lines, *(f"    {line}" for line in self.text.splitlines())]
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the proposed equation as plain data."""
-        return {
-            **select_attributes(self.finding, "effect joint error_before error_after gain"),
-            **select_attributes(self.finding, "parameters sigmas intervals units"),
-            **select_attributes(self, "text equation effects_line explained_share symbols"),
-            **select_attributes(self, "replaced_effects nearest_effect similarity difference"),
-            **select_attributes(self, "discriminating_command discriminating_state"),
-        }
-
 
 @dataclass(frozen=True, eq=False)
-class JointDiscovery(ShortRepr):
+class JointDiscovery(ShortRepr, Document):
     """What was looked for on one joint.
 
     Attributes:
@@ -423,6 +433,8 @@ class JointDiscovery(ShortRepr):
         proposals: best first.
         reason: why there are none.
     """
+
+    KEYS = "joint share law reason proposals"
 
     joint: str
     share: float
@@ -435,11 +447,6 @@ class JointDiscovery(ShortRepr):
         if not self.proposals:
             return [f"joint {self.joint}: {self.reason}"]
         return [line for proposal in self.proposals for line in proposal.format_lines()]
-
-    def to_json(self) -> dict[str, Any]:
-        """Returns what was looked for on the joint, as plain data."""
-        proposals = {"proposals": [p.to_json() for p in self.proposals]}
-        return select_attributes(self, "joint share law reason") | proposals
 
 
 @dataclass(frozen=True)
@@ -473,8 +480,22 @@ class JointState(ShortRepr):
         return self.systematic_share > max(THRESHOLDS.min_systematic_torque**2, share)
 
 
+@dataclass(frozen=True)
+class JointDiagnosis(Document):
+    """One joint of a diagnosis.
+
+    Attributes:
+        relative_error: of the model on these logs in its own band, as `compare` has it.
+    """
+
+    KEYS = "relative_error *state"
+
+    state: JointState
+    relative_error: float
+
+
 @dataclass(frozen=True, eq=False)
-class Diagnosis(Result):
+class Diagnosis(Result, Document):
     """What is missing in a model.
 
     Attributes:
@@ -498,6 +519,12 @@ class Diagnosis(Result):
         search: everything behind it.
         discoveries: equations proposed by joint; None where none were requested.
         errors: by joint, of the model on these logs in its own band, as `compare` has them.
+    """
+
+    KEYS = """
+        robot verdict effects refinements alternatives=alternative_effects
+        undetectable=undetectable_places joints=joint_results unmoved_joints held_out_logs sentences
+        band fit_band data_warnings has_changed has_contradictions machine_changed discoveries
     """
 
     robot: str
@@ -559,22 +586,20 @@ class Diagnosis(Result):
         """Returns whether the robot has changed since the fit, so that parameters were fixed."""
         return self.search.start.data.fixed_parameters is not None
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the `diagnose` object that scripts read; numbers that mean nothing are null."""
-        joints = self.joints.items()
-        proposed = self.discoveries
-        return convert_to_plain(
-            {
-                **select_attributes(self, "robot verdict effects refinements"),
-                "alternatives": [
-                    {**_describe_key((e, j)), "gain": gain} for e, j, gain in self.alternatives
-                ],
-                "undetectable": list(map(_describe_key, self.undetectable)),
-                "joints": {n: {"relative_error": self.errors.get(n), **vars(j)} for n, j in joints},
-                **select_attributes(self, "unmoved_joints held_out_logs sentences band fit_band"),
-                **select_attributes(
-                    self, "data_warnings has_changed has_contradictions machine_changed"
-                ),
-                **({} if proposed is None else {"discoveries": [d.to_json() for d in proposed]}),
-            }
-        )
+    @property
+    def alternative_effects(self) -> tuple[Alternative, ...]:
+        """Returns the alternatives to the first effect, with their variance reduction."""
+        return tuple(Alternative(*one) for one in self.alternatives)
+
+    @property
+    def undetectable_places(self) -> tuple[EffectPlace, ...]:
+        """Returns what these data cannot show, by effect and joint."""
+        return tuple(EffectPlace(*key) for key in self.undetectable)
+
+    @property
+    def joint_results(self) -> dict[str, "JointDiagnosis"]:
+        """Returns the joints before and after, with the error of the model in its own band."""
+        return {
+            name: JointDiagnosis(state, self.errors.get(name, math.nan))
+            for name, state in self.joints.items()
+        }

@@ -15,13 +15,15 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, get_type_hints
+from typing import Any, Literal, TypedDict, get_type_hints
 
 import numpy as np
 
 from modeler.core.errors import DataError, ManifestError, split_time_range
 from modeler.core.files import compute_checksum, read_file, read_text, write_atomically
 from modeler.core.json import (
+    Change,
+    Document,
     JsonError,
     SchemaError,
     convert_value,
@@ -95,7 +97,7 @@ class LogProvenance:
 
 
 @dataclass(frozen=True)
-class Addition(Result):
+class Addition(Result, Document):
     """Describes one effect that was added to a model.
 
     Attributes:
@@ -116,6 +118,12 @@ class Addition(Result):
         warning: why a diagnosis would call it possible only; empty if it would call it likely.
         shifts_in_sigmas: by how much each parameter that was there moved, in its sigmas; of learned
             laws only.
+    """
+
+    KEYS = """
+        effect=effect_id joint error training_error nonlinear_parameters nonlinear_sigmas
+        nonlinear_intervals held_out_logs joints=joint_changes changed_joints is_improvement warning
+        is_learned shifts_in_sigmas
     """
 
     effect: str
@@ -139,21 +147,19 @@ class Addition(Result):
         """Returns True of a law that was learned, which is no physics."""
         return bool(self.shifts_in_sigmas)
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the added effect as plain data, without the robot file."""
-        names = "joint error training_error nonlinear_parameters"
-        return {
-            "effect": self.effect or None,
-            **select_attributes(self, names),
-            **select_attributes(self, "nonlinear_sigmas nonlinear_intervals held_out_logs"),
-            "joints": {j: {"before": a, "after": b} for j, (a, b) in self.joints.items()},
-            **select_attributes(self, "changed_joints is_improvement warning is_learned"),
-            "shifts_in_sigmas": self.shifts_in_sigmas,
-        }
+    @property
+    def effect_id(self) -> str | None:
+        """Returns the id of the effect; None of the model as it was first fitted."""
+        return self.effect or None
+
+    @property
+    def joint_changes(self) -> dict[str, Change]:
+        """Returns the relative error without and with it, by joint."""
+        return {joint: Change(*errors) for joint, errors in self.joints.items()}
 
 
 @dataclass(frozen=True, eq=False)
-class IdentifiedModel(Result):
+class IdentifiedModel(Result, Document):
     """Holds a robot with values.
 
     Attributes:
@@ -166,6 +172,8 @@ class IdentifiedModel(Result):
         mapping: which columns of its logs are ours, a table as [log] of a robot file, over that;
             empty if the robot file says it all.
     """
+
+    KEYS = "*fit waterfall=history logs"
 
     robot_text: str
     spec: ModuleSpec
@@ -209,11 +217,6 @@ class IdentifiedModel(Result):
         """Returns a line of warning if the fit is not valid, else no line."""
         return [] if self.fit.verdict is None else self.fit.verdict.format_warning()
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns what scripts read: the fit, what was added to it, and its logs."""
-        steps = {"waterfall": [step.to_json() for step in self.history]} if self.history else {}
-        return self.fit.to_json() | steps | {"logs": [vars(log) for log in self.logs]}
-
     def compile(self) -> CompiledModel:
         """Returns the compiled robot.
 
@@ -244,6 +247,24 @@ def compute_place_checksum(place: str) -> str:
         return compute_checksum(Path(split_time_range(place)[0])) if place else ""
     except OSError:
         return ""
+
+
+class ModelFile(TypedDict):
+    """What a model file holds."""
+
+    kind: Literal["modeler model"]
+    format: int
+    robot: str
+    signature: str  # of the manifest
+    fit: FitResult
+    covariance: list[list[float]]  # of the base parameters
+    logs: list[LogProvenance]  # that were fitted
+    mapping: Mapping[str, Any]  # which columns of the logs are ours
+    robot_text: str  # the robot file
+    history: list[Mapping[str, Any]]  # the model as first fitted, and effects added since
+    manifest: ModuleSpec
+    sources: Mapping[str, str]  # the C
+    checksums: Mapping[str, str]  # of all other entries
 
 
 def save_model(path: str | Path, model: IdentifiedModel) -> None:

@@ -11,7 +11,7 @@ from scipy.special import fdtri
 from modeler.core.brief import ShortRepr
 from modeler.core.choices import Method
 from modeler.core.errors import DataError
-from modeler.core.json import build_instance, select_attributes
+from modeler.core.json import Document, build_instance, select_attributes
 from modeler.core.table import format_error_pair
 from modeler.estimation.least_squares import Estimate, solve_by_qr, solve_least_squares
 from modeler.estimation.thresholds import THRESHOLDS
@@ -21,7 +21,7 @@ T = TypeVar("T")
 
 
 @dataclass(frozen=True)
-class ParameterEstimate:
+class ParameterEstimate(Document):
     """Holds one estimated parameter.
 
     Attributes:
@@ -35,6 +35,8 @@ class ParameterEstimate:
         prior: share of what is known of it that comes from the prior of the robot file, of the
             inverse variance; None without one.
     """
+
+    KEYS = "name value sigma relative_sigma_percent essential unit status prior interval"
 
     name: str
     unit: str
@@ -51,11 +53,6 @@ class ParameterEstimate:
         if self.sigma is None or self.value == 0.0:
             return None
         return 100.0 * self.sigma / abs(self.value)
-
-    def to_json(self) -> dict[str, Any]:
-        """Returns the estimated parameter as plain data."""
-        names = "name value sigma relative_sigma_percent essential unit status prior interval"
-        return select_attributes(self, names)
 
 
 def read_back(kind: type[T], raw: Mapping[str, Any], place: str) -> T:
@@ -288,10 +285,6 @@ class ReducedModel(ShortRepr):
     relative_error: float
     f_statistic: float
     f_limit: float | None
-
-    def to_json(self) -> dict[str, Any]:
-        """Returns the essential parameters and what was left out as plain data."""
-        return vars(self) | {"parameters": [parameter.to_json() for parameter in self.parameters]}
 
 
 def build_reduced_model(

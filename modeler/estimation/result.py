@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, ManifestError
-from modeler.core.json import build_instance, convert_to_plain, select_attributes
+from modeler.core.json import Document, build_instance
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Result
 from modeler.core.table import POOLED, format_errors_by_unit, format_percent, pool_errors_by_unit
@@ -64,7 +64,7 @@ class ModelFigures(ShortRepr):
 
 
 @dataclass(frozen=True)
-class EnergyReport(ShortRepr):
+class EnergyReport(ShortRepr, Document):
     """Holds how the rows of energy were made, and how they compare with the torque model.
 
     Attributes:
@@ -73,6 +73,8 @@ class EnergyReport(ShortRepr):
         figures: torque model, energy by Simpson's rule, energy by the trapezoid.
         parameters: estimated ones.
     """
+
+    KEYS = "window relative_error parameters uncertainty_ratio figures sentences"
 
     window: float
     relative_error: float
@@ -111,10 +113,11 @@ class EnergyReport(ShortRepr):
             *table,
             "cond: columns of length one; known: sigma below 10 %; error, sigma: of the predicted "
             "torques; missed: energy error of the integration; bias: its largest effect",
-            *self.format_sentences(),
+            *self.sentences,
         ]
 
-    def format_sentences(self) -> list[str]:
+    @property
+    def sentences(self) -> list[str]:
         """Returns which of the two models to take, and what the rule of integration does."""
         torque, energy, _ = self.figures
         where, ratio = self._find_worst_joint()
@@ -138,13 +141,6 @@ class EnergyReport(ShortRepr):
             second += "; log faster, or move more slowly"
         return [first, second]
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the comparison of the energy model with the torque model as plain data."""
-        return select_attributes(self, "window relative_error parameters uncertainty_ratio") | {
-            "figures": [vars(item) for item in self.figures],
-            "sentences": self.format_sentences(),
-        }
-
 
 # Friction by direction: what viscous, Coulomb, their asymmetry and the offset come to.
 
@@ -158,7 +154,7 @@ _LAW = (
 
 
 @dataclass(frozen=True)
-class DirectedFriction:
+class DirectedFriction(Document):
     """Holds friction of one joint in one direction of its motion, a sum of base parameters.
 
     Attributes:
@@ -169,16 +165,18 @@ class DirectedFriction:
         relation: "Fv1+ = Fv1 + Fva1".
     """
 
+    KEYS = "name unit value sigma relation relative_sigma_percent"
+
     name: str
     unit: str
     value: float
     sigma: float
     relation: str
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the friction of the joint in that direction as plain data."""
-        share = 100.0 * self.sigma / abs(self.value) if self.value else None
-        return vars(self) | {"relative_sigma_percent": share}
+    @property
+    def relative_sigma_percent(self) -> float | None:
+        """Returns 100 sigma / |value|; None of the value 0."""
+        return 100.0 * self.sigma / abs(self.value) if self.value else None
 
 
 def compute_friction_by_direction(
@@ -234,7 +232,7 @@ def format_directions(directions: tuple[DirectedFriction, ...]) -> list[str]:
 
 
 @dataclass(frozen=True)
-class JointFit:
+class JointFit(Document):
     """Holds the fit of one joint.
 
     Attributes:
@@ -245,6 +243,8 @@ class JointFit:
         rms: of the residual.
         sigma: standard deviation of its rows, the inverse of their weight.
     """
+
+    KEYS = "relative_error rms sigma rows unit"
 
     name: str
     unit: str
@@ -304,8 +304,32 @@ class Verdict(ShortRepr):
         return [] if self.valid else [f"the fit of this model is {line}"]
 
 
+@dataclass(frozen=True)
+class JudgedJoint(Document):
+    """Holds the fit of one joint and what it is valid for; None: nobody has judged it."""
+
+    KEYS = "*fit *verdict"
+
+    fit: JointFit
+    verdict: JointVerdict | None
+
+
+@dataclass(frozen=True)
+class LoadFit(Document):
+    """Holds the fits of the joints on the logs with a payload, or on those without."""
+
+    KEYS = "relative_error joints=joints[name]"
+
+    joints: tuple[JointFit, ...]
+
+    @property
+    def relative_error(self) -> float:
+        """Returns ||y - W beta|| / ||y|| over the joints; NaN without torque."""
+        return combine_errors(self.joints)
+
+
 @dataclass(frozen=True, eq=False)
-class FitResult(Result):
+class FitResult(Result, Document):
     """Holds a fitted model.
 
     Attributes:
@@ -337,6 +361,15 @@ class FitResult(Result):
         prior_conflicts: lines on what the prior of the robot file says and the data contradict.
         by_load: the joints on the "bare" and on the "loaded" logs; empty without payloads.
         bands: the cut-offs, what chose them, the noise of the motion; None in files that lack it.
+    """
+
+    KEYS = """
+        robot method status samples rows condition_number condition_scaled relative_error
+        relative_error_pools by_unit essential_error joints=joint_results by_load=load_results
+        parameters loads gains singular_values sentences processing standard essential
+        prior_conflicts directions model energy bands valid=verdict.valid
+        valid_for=verdict.valid_for verdict=verdict.line warnings undetectable_faults
+        physically_consistent=verdict.physically_consistent reading
     """
 
     robot: str
@@ -372,6 +405,37 @@ class FitResult(Result):
     def beta(self) -> np.ndarray:
         """Returns the values (c,) of the base parameters, manifest order, SI units."""
         return np.array([parameter.value for parameter in self.parameters])
+
+    @property
+    def joint_results(self) -> dict[str, "JudgedJoint"]:
+        """Returns the joints with what their fit is valid for."""
+        verdicts = self.verdict.by_joint if self.verdict else {}
+        return {joint.name: JudgedJoint(joint, verdicts.get(joint.name)) for joint in self.joints}
+
+    @property
+    def load_results(self) -> dict[str, "LoadFit"]:
+        """Returns the joints on the "bare" and on the "loaded" logs; empty without payloads."""
+        return {name: LoadFit(joints) for name, joints in self.by_load.items()}
+
+    @property
+    def model(self) -> Literal["torque", "energy"]:
+        """Returns which model was fitted."""
+        return "torque" if self.energy is None else "energy"
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Returns all that speaks against the fit."""
+        return () if self.verdict is None else self.verdict.warnings
+
+    @property
+    def undetectable_faults(self) -> tuple[str, ...]:
+        """Returns faults that these logs would not show."""
+        return () if self.verdict is None else self.verdict.undetectable_faults
+
+    @property
+    def relative_error_pools(self) -> str:
+        """Returns what `relative_error` puts together."""
+        return POOLED
 
     @property
     def by_unit(self) -> dict[str, float]:
@@ -412,37 +476,6 @@ class FitResult(Result):
             lines += [*(f"warning: {line}" for line in others), *self.verdict.undetectable_faults]
             lines.append(self.verdict.line)
         return lines
-
-    def to_json(self) -> dict[str, Any]:
-        """Returns the `fit` object that scripts read; numbers that mean nothing are null."""
-        verdict = self.verdict
-        head = "robot method status samples rows condition_number condition_scaled relative_error"
-        plain = select_attributes(self, head) | {"relative_error_pools": POOLED}
-        plain |= select_attributes(self, "by_unit essential_error")
-        plain["joints"] = _serialise_joints(self.joints, verdict.by_joint if verdict else {})
-        plain["by_load"] = {
-            name: {"relative_error": combine_errors(fits), "joints": _serialise_joints(fits)}
-            for name, fits in self.by_load.items()
-        }
-        names = "parameters loads gains singular_values sentences processing"
-        plain |= select_attributes(self, names)
-        plain |= select_attributes(self, "standard essential prior_conflicts directions")
-        plain["model"] = "torque" if self.energy is None else "energy"
-        plain |= select_attributes(self, "energy bands")
-        plain |= dict.fromkeys(
-            ("valid", "valid_for", "verdict", "warnings", "physically_consistent")
-        )
-        plain["warnings"] = []
-        if verdict is not None:
-            plain |= select_attributes(verdict, "valid valid_for warnings physically_consistent")
-            plain["verdict"] = verdict.line
-            plain |= (
-                {"undetectable_faults": verdict.undetectable_faults}
-                if verdict.undetectable_faults
-                else {}
-            )
-        plain |= {"reading": dict(self.reading)} if self.reading else {}
-        return dict(convert_to_plain(plain))
 
 
 _LISTS: Mapping[str, type] = {
@@ -490,14 +523,6 @@ def combine_errors(joints: Sequence[JointFit]) -> float:
     seen = [joint.squares for joint in joints if joint.relative_error]
     left, total = np.sum(seen, axis=0) if seen else (0.0, 0.0)
     return float(np.sqrt(left / total)) if total else float("nan")
-
-
-def _serialise_joints(
-    joints: Sequence[JointFit], judged: Mapping[str, JointVerdict] | None = None
-) -> dict[str, Any]:
-    verdicts = {name: vars(one) for name, one in (judged or {}).items()}
-    names = "relative_error rms sigma rows unit"
-    return {j.name: select_attributes(j, names) | verdicts.get(j.name, {}) for j in joints}
 
 
 def _add_names(joints: Mapping[str, Any]) -> list[dict[str, Any]]:

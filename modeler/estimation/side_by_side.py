@@ -3,14 +3,13 @@
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from modeler.core.brief import ShortRepr
-from modeler.core.choices import ABOUT, Method
+from modeler.core.choices import ABOUT, EstimatorInfo, Method
 from modeler.core.errors import ModelerError
-from modeler.core.json import select_attributes
+from modeler.core.json import Document
 from modeler.core.result import Result
 from modeler.estimation.identify import identify
 from modeler.estimation.result import FitResult
@@ -22,7 +21,7 @@ FIRST: Method = "weighted"
 
 
 @dataclass(frozen=True, eq=False)
-class MethodResult(ShortRepr):
+class MethodResult(ShortRepr, Document):
     """Holds what one estimator gives.
 
     Attributes:
@@ -36,6 +35,11 @@ class MethodResult(ShortRepr):
         notes: what this fit says of itself; else when not to use it.
     """
 
+    KEYS = """
+        method title=info.title limitations=info.limitations refusal=known_refusal seconds
+        held_out_error largest_shift notes fit
+    """
+
     method: Method
     fit: FitResult | None
     refusal: str
@@ -44,15 +48,15 @@ class MethodResult(ShortRepr):
     largest_shift: tuple[str, float] | None
     notes: tuple[str, ...]
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns what the estimator gives as plain data."""
-        return {
-            "method": self.method,
-            **select_attributes(ABOUT[self.method], "title limitations"),
-            "refusal": self.refusal or None,
-            **select_attributes(self, "seconds held_out_error largest_shift notes"),
-            "fit": None if self.fit is None else self.fit.to_json(),
-        }
+    @property
+    def info(self) -> EstimatorInfo:
+        """Returns what the estimator is."""
+        return ABOUT[self.method]
+
+    @property
+    def known_refusal(self) -> str | None:
+        """Returns why there is no fit; None where there is one."""
+        return self.refusal or None
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from scipy.linalg import cholesky, solve_triangular
 
 from modeler.core.choices import TWO_STEPS
 from modeler.core.errors import DataError
-from modeler.core.json import select_attributes
+from modeler.core.json import Document, select_attributes
 from modeler.core.table import format_percent
 from modeler.estimation import single_joint
 from modeler.estimation.covariance import estimate_autocorrelation
@@ -294,7 +294,7 @@ _POSES_SEED = 1872
 
 
 @dataclass(frozen=True)
-class PersistentExcitation:
+class PersistentExcitation(Document):
     """Describes Phi of the inertia of one joint: J(configuration) = Phi beta.
 
     Attributes:
@@ -304,6 +304,8 @@ class PersistentExcitation:
         max_rank: of Phi at ever so many configurations.
         typical_ratio: last of the singular values over the first at ever so many configurations.
     """
+
+    KEYS = "joint configurations singular_values rank max_rank typical_ratio"
 
     joint: str
     configurations: int
@@ -334,11 +336,6 @@ class PersistentExcitation:
             f"{self.rank} of {self.max_rank} in its inertia: not persistently exciting; move "
             f"it at {self.max_rank - self.rank} or more further configurations of the others"
         )
-
-    def to_json(self) -> dict[str, Any]:
-        """Returns rank and singular values of Phi as plain data."""
-        names = "joint configurations singular_values rank max_rank typical_ratio"
-        return select_attributes(self, names)
 
 
 def compute_excitations(

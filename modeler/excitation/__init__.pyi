@@ -2,6 +2,7 @@ from .limits import (
     BASE as BASE,
     Box as Box,
     Clearance as Clearance,
+    ClearanceReport as ClearanceReport,
     ClosestApproach as ClosestApproach,
     CollisionGeometry as CollisionGeometry,
     LimitExcess as LimitExcess,

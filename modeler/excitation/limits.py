@@ -5,13 +5,13 @@ import math
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, LoopError
-from modeler.core.json import select_attributes
+from modeler.core.json import Document
 from modeler.excitation.thresholds import THRESHOLDS
 
 if TYPE_CHECKING:
@@ -123,15 +123,6 @@ class ClosestApproach(ShortRepr):
     posture: Mapping[str, float]
     points: np.ndarray
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the closest approach as plain data."""
-        return {
-            "pair": list(self.pair),
-            **select_attributes(self, "distance bound time"),
-            "posture": dict(self.posture),
-            "points": self.points.tolist(),
-        }
-
 
 @dataclass(frozen=True, eq=False)
 class Clearance(ShortRepr):
@@ -158,14 +149,6 @@ class Clearance(ShortRepr):
             f"{near.time:.4g} s; at no time, between samples too, are any two nearer than "
             f"{1e3 * near.bound:.1f} mm, of {1e3 * self.margin:g} mm requested{excluded_text}"
         )
-
-    def to_json(self, near: ClosestApproach | None) -> dict[str, Any]:
-        """Returns the clearance, and what is nearest in a motion, as plain data."""
-        return {
-            "margin": self.margin,
-            "excluded_pairs": [list(each) for each in self.excluded_pairs],
-            "closest_approach": None if near is None else near.to_json(),
-        }
 
     def compute_shares(self, compiled: "CompiledModel", q: np.ndarray) -> np.ndarray:
         """Computes exp((margin - distance) / median radius), (n, pairs): < 1 where far apart."""
@@ -484,7 +467,21 @@ def build_posture_limits(compiled: "CompiledModel", bounds: MotionBounds) -> Pos
 
 
 @dataclass(frozen=True)
-class LimitExcess(ShortRepr):
+class ClearanceReport(Document):
+    """What links keep from each other along a motion.
+
+    Attributes:
+        closest_approach: None where there are no two.
+    """
+
+    KEYS = "margin=clearance.margin excluded_pairs=clearance.excluded_pairs closest_approach"
+
+    clearance: Clearance
+    closest_approach: ClosestApproach | None
+
+
+@dataclass(frozen=True)
+class LimitExcess(ShortRepr, Document):
     """Where a joint exceeds a limit most.
 
     Attributes:
@@ -495,6 +492,8 @@ class LimitExcess(ShortRepr):
         unit: of them.
         step: (rad or m, s) of the largest step between two samples there; None for others.
     """
+
+    KEYS = "joint quantity time value limit unit"
 
     joint: str
     quantity: str
@@ -515,10 +514,6 @@ class LimitExcess(ShortRepr):
             f"joint {self.joint}, {self.time:.4g} s: {self.quantity} {self.value:.4g} {self.unit}"
             f"{step}, {expected}"
         )
-
-    def to_json(self) -> dict[str, object]:
-        """Returns the excess over the limit as plain data."""
-        return select_attributes(self, "joint quantity time value limit unit")
 
 
 def find_exceeded_limits(

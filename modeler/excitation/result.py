@@ -12,10 +12,11 @@ import pyarrow.parquet as pq
 
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
+from modeler.core.json import Change, Document
 from modeler.core.result import Result
 from modeler.core.table import align_columns
 from modeler.core.toml_cells import join_names
-from modeler.excitation.limits import ClosestApproach, MotionBounds
+from modeler.excitation.limits import ClearanceReport, ClosestApproach, MotionBounds
 from modeler.excitation.series import MotionSeries, compute_signals, export_coefficients
 from modeler.excitation.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel
@@ -57,8 +58,38 @@ class LimitUsage(ShortRepr):
     loops: float | None
 
 
+@dataclass(frozen=True)
+class BoundUsage:
+    """A limit, what a motion uses of it, and what is left; None of infinite and unknown ones."""
+
+    limit: float | None
+    value: float | None
+    slack: float | None
+
+
+@dataclass(frozen=True)
+class JointUsage:
+    """What a motion uses of the limits of one joint, SI."""
+
+    lower: BoundUsage
+    upper: BoundUsage
+    speed: BoundUsage
+    acceleration: BoundUsage
+    torque: BoundUsage
+
+
+@dataclass(frozen=True)
+class RandomMotions:
+    """Random motions as large as the limits allow; condition numbers of columns of length one."""
+
+    count: int
+    condition_scaled_best: float
+    condition_scaled_median: float
+    log_det_best: float
+
+
 @dataclass(frozen=True, eq=False)
-class InformationGain(ShortRepr):
+class InformationGain(ShortRepr, Document):
     """What a log of a motion adds to logs that there are.
 
     Attributes:
@@ -68,6 +99,8 @@ class InformationGain(ShortRepr):
         logs: names of the logs that there are.
         condition: of their rows, and with those of the next one; columns of length one.
     """
+
+    KEYS = "logs condition_scaled=condition_change sigmas=sigma_changes"
 
     names: tuple[str, ...]
     units: tuple[str, ...]
@@ -94,19 +127,20 @@ class InformationGain(ShortRepr):
             *([f"and {len(rows) - count} others, less"] if len(rows) > count else []),
         ]
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns what the log adds as plain data."""
-        sigmas = zip(self.names, self.before, self.after, strict=True)
-        first, then = (c if np.isfinite(c) else None for c in self.condition)
-        return {
-            "logs": list(self.logs),
-            "condition_scaled": {"before": first, "after": then},
-            "sigmas": {name: {"before": a, "after": b} for name, a, b in sigmas},
-        }
+    @property
+    def condition_change(self) -> Change:
+        """Returns the condition number of the rows, and with those of the next log."""
+        return Change(*self.condition)
+
+    @property
+    def sigma_changes(self) -> dict[str, Change]:
+        """Returns the sigmas by parameter."""
+        rows = zip(self.names, self.before, self.after, strict=True)
+        return {name: Change(before, after) for name, before, after in rows}
 
 
 @dataclass(frozen=True, eq=False)
-class ExcitingMotion(Result):
+class ExcitingMotion(Result, Document):
     """A motion that excites a robot.
 
     Attributes:
@@ -126,6 +160,13 @@ class ExcitingMotion(Result):
         seconds: that it took.
         closest_approach: where links come closest; None where they are not looked at.
         information_gain: what it adds to logs; None without.
+    """
+
+    KEYS = """
+        robot *request condition_number=quality.condition_raw condition_scaled=quality.condition
+        log_det=quality.log_det random_motions parameters=columns joints=joint_usage
+        boxes=bounds.boxes posture_share=usage.posture singular_share=usage.loops clearance
+        has_ended_early information_gain series=coefficients
     """
 
     robot: str
@@ -197,40 +238,36 @@ class ExcitingMotion(Result):
             lines.append("the time limit ended the search: another run may find another motion")
         return [*lines, *(self.information_gain.format_lines() if self.information_gain else [])]
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the motion's quality and its use of the limits as plain data."""
+    @property
+    def random_motions(self) -> "RandomMotions":
+        """Returns the random motions that it is compared with."""
+        return RandomMotions(self.random_count, *self.random, self.random_log_det)
+
+    @property
+    def joint_usage(self) -> dict[str, "JointUsage"]:
+        """Returns the limits of each joint, and what the motion uses of them."""
         b, u = self.bounds, self.usage
-        joints = {}
-        for j, name in enumerate(b.joints):
-            torque = None if u.torque is None else u.torque[j]
-            joints[name] = {
-                what: _build_usage_json(getattr(b, what)[j], getattr(u, what)[j], what == "lower")
-                for what in ("lower", "upper", "speed", "acceleration")
-            } | {"torque": _build_usage_json(b.torque[j], torque)}
         return {
-            "robot": self.robot,
-            **self.request,
-            "condition_number": self.quality.condition_raw,
-            "condition_scaled": self.quality.condition,
-            "log_det": self.quality.log_det,
-            "random_motions": {
-                "count": self.random_count,
-                "condition_scaled_best": self.random[0],
-                "condition_scaled_median": self.random[1],
-                "log_det_best": self.random_log_det,
-            },
-            "parameters": list(self.columns),
-            "joints": joints,
-            "boxes": [vars(box) for box in b.boxes],
-            "posture_share": u.posture,
-            "singular_share": u.loops,
-            "clearance": b.clearance and b.clearance.to_json(self.closest_approach),
-            "has_ended_early": self.has_ended_early,
-            "information_gain": None
-            if self.information_gain is None
-            else self.information_gain.to_json(),
-            "series": export_coefficients(self.series, self.x, b.joints),
+            name: JointUsage(
+                _build_bound_usage(b.lower[j], u.lower[j], least=True),
+                _build_bound_usage(b.upper[j], u.upper[j]),
+                _build_bound_usage(b.speed[j], u.speed[j]),
+                _build_bound_usage(b.acceleration[j], u.acceleration[j]),
+                _build_bound_usage(b.torque[j], None if u.torque is None else u.torque[j]),
+            )
+            for j, name in enumerate(b.joints)
         }
+
+    @property
+    def clearance(self) -> ClearanceReport | None:
+        """Returns what links keep from each other; None where they are not looked at."""
+        clearance = self.bounds.clearance
+        return None if clearance is None else ClearanceReport(clearance, self.closest_approach)
+
+    @property
+    def coefficients(self) -> Mapping[str, Any]:
+        """Returns the family of the motion, its period and its coefficients by joint."""
+        return export_coefficients(self.series, self.x, self.bounds.joints)
 
 
 def encode_parquet(columns: Mapping[str, np.ndarray]) -> bytes:
@@ -250,14 +287,11 @@ def format_csv(columns: Mapping[str, np.ndarray]) -> str:
     return out.getvalue()
 
 
-def _build_usage_json(
-    limit: float, used: float | None, least: bool = False
-) -> dict[str, float | None]:
-    """A limit, what is used of it, and what is left; infinite ones are None."""
+def _build_bound_usage(limit: float, used: float | None, least: bool = False) -> BoundUsage:
     most = float(limit) if np.isfinite(limit) else None
     value = None if used is None else float(used)
     slack = None if most is None or value is None else value - most if least else most - value
-    return {"limit": most, "value": value, "slack": slack}
+    return BoundUsage(most, value, slack)
 
 
 def _format_range(low: float, high: float) -> str:

@@ -4,7 +4,6 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -55,6 +54,21 @@ class DiscriminationProblem:
 
 
 @dataclass(frozen=True)
+class EffectDiscrimination:
+    """One of two effects along a motion.
+
+    Attributes:
+        unexplained_share: of its torque, that neither the model nor the other effect explains.
+        random_share: the same of the best of the random motions.
+        gain: by how much the unexplained torque itself is larger than on that motion.
+    """
+
+    unexplained_share: float
+    random_share: float
+    gain: float
+
+
+@dataclass(frozen=True)
 class Discrimination:
     """How well a motion distinguishes the two.
 
@@ -87,14 +101,10 @@ class Discrimination:
             )
         ]
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns what distinguishes the two effects, by effect, as plain data."""
-        return {
-            name: {"unexplained_share": a, "random_share": b, "gain": c}
-            for name, a, b, c in zip(
-                self.names, self.unexplained_share, self.random_share, self.gain, strict=True
-            )
-        }
+    def to_json(self) -> "dict[str, EffectDiscrimination]":
+        """Returns what distinguishes the two effects, by effect."""
+        values = zip(self.unexplained_share, self.random_share, self.gain, strict=True)
+        return {name: EffectDiscrimination(*x) for name, x in zip(self.names, values, strict=True)}
 
 
 def design_discriminating_motion(

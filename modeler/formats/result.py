@@ -3,11 +3,11 @@
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from modeler.core.brief import ShortRepr
+from modeler.core.json import Document
 from modeler.core.result import Presentation, Result, register_presentations
 from modeler.core.table import Table, format_percent
 from modeler.formats.bodies import (
@@ -155,7 +155,7 @@ class Value(ShortRepr):
 
 
 @dataclass(frozen=True, eq=False)
-class Exported(Result):
+class Exported(Result, Document):
     """A file for another program.
 
     Attributes:
@@ -171,6 +171,11 @@ class Exported(Result):
         files: of a folder, by name; `data` is empty then.
     """
 
+    KEYS = """
+        robot format template=template_name shift_in_sigmas values lost_effects notes functions
+        files=file_names
+    """
+
     robot: str
     format: str
     template: str
@@ -182,19 +187,15 @@ class Exported(Result):
     functions: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, bytes] = field(default_factory=dict)
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns what `--json` writes."""
-        return {
-            "robot": self.robot,
-            "format": self.format,
-            "template": self.template or None,
-            "shift_in_sigmas": self.shift_in_sigmas,
-            "values": [vars(value) for value in self.values],
-            "lost_effects": [vars(lost) for lost in self.lost_effects],
-            "notes": list(self.notes),
-            "functions": dict(self.functions),
-            "files": sorted(self.files),
-        }
+    @property
+    def template_name(self) -> str | None:
+        """Returns the original whose numbers were replaced; None of a file of its own."""
+        return self.template or None
+
+    @property
+    def file_names(self) -> list[str]:
+        """Returns the names of the files of a folder."""
+        return sorted(self.files)
 
 
 def format_numbers(values: Iterable[float]) -> str:

@@ -7,6 +7,8 @@ from .coefficients import (
 from .function_sheet import SheetWriter as SheetWriter, format_sheet as format_sheet
 from .known_values import (
     CadComparison as CadComparison,
+    CadRow as CadRow,
+    Explanation as Explanation,
     KnownAgainstFit as KnownAgainstFit,
     KnownValues as KnownValues,
     check_known as check_known,

@@ -456,7 +456,7 @@ def serialise_solution(solution: ClosedSolution, verified: Mapping[str, int] | N
     system = solution.system
     return {
         "robot": system.robot,
-        "from": system.source,
+        "source": system.source,
         "coefficients": list(system.map_lines),
         "known_parameters": list(solution.known),
         "lengths": dict(system.constants),

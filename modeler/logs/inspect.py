@@ -3,12 +3,11 @@
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from modeler.core.errors import DataError
-from modeler.core.json import convert_to_plain
+from modeler.core.json import Document
 from modeler.core.manifest import JointSpec
 from modeler.core.result import Result
 from modeler.core.table import format_percent
@@ -41,7 +40,7 @@ _TOLD = (
 
 
 @dataclass(frozen=True)
-class Clock:
+class Clock(Document):
     """The time of the rows.
 
     Attributes:
@@ -53,6 +52,11 @@ class Clock:
         repeated_steps: of 0; `backward_steps`: to an earlier time.
         duration: s.
         tick: s; what the steps differ by at least, 0 if they lie on no grid.
+    """
+
+    KEYS = """
+        column rate jitter gaps lost_rows largest_gap largest_gap_start repeated_steps
+        backward_steps duration tick=known_tick
     """
 
     column: str
@@ -67,9 +71,14 @@ class Clock:
     duration: float
     tick: float
 
+    @property
+    def known_tick(self) -> float | None:
+        """Returns the grid of the steps, s; None where they lie on none."""
+        return self.tick or None
+
 
 @dataclass(frozen=True)
-class Channel:
+class Channel(Document):
     """One column with numbers.
 
     Attributes:
@@ -82,6 +91,11 @@ class Channel:
         is_constant: True if it never changes.
     """
 
+    KEYS = """
+        name unit is_unit_guessed low high missing_rows resolution=known_resolution limits
+        is_constant
+    """
+
     name: str
     unit: str
     is_unit_guessed: bool
@@ -91,6 +105,11 @@ class Channel:
     resolution: float
     limits: tuple[tuple[float, float], ...]
     is_constant: bool
+
+    @property
+    def known_resolution(self) -> float | None:
+        """Returns the smallest step between values; None where there is no grid."""
+        return self.resolution or None
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +130,7 @@ class Positions:
 
 
 @dataclass(frozen=True, eq=False)
-class LogInspection(Result):
+class LogInspection(Result, Document):
     """All that a log shows by itself.
 
     Attributes:
@@ -131,6 +150,8 @@ class LogInspection(Result):
         positions: None without a clock, or without any.
     """
 
+    KEYS = "log=name rows clock channels streams notes warnings suggested_map"
+
     name: str
 
     rows: int
@@ -146,26 +167,6 @@ class LogInspection(Result):
     steps: np.ndarray
     values: Mapping[str, np.ndarray]
     positions: Positions | None = None
-
-    def to_json(self) -> dict[str, Any]:
-        """Returns plain data, without the values; a number that is not there is null."""
-        return convert_to_plain(
-            {
-                "log": self.name,
-                "rows": self.rows,
-                "clock": None
-                if self.clock is None
-                else dataclasses.asdict(self.clock) | {"tick": self.clock.tick or None},
-                "channels": [
-                    dataclasses.asdict(channel) | {"resolution": channel.resolution or None}
-                    for channel in self.channels
-                ],
-                "streams": [dataclasses.asdict(stream) for stream in self.streams],
-                "notes": list(self.notes),
-                "warnings": list(self.warnings),
-                "suggested_map": self.suggested_map,
-            }
-        )
 
 
 def inspect_table(

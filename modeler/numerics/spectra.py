@@ -6,12 +6,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core.brief import ShortRepr
+from modeler.core.json import Document
 from modeler.numerics.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True, eq=False)
-class ResidualSpectrum(ShortRepr):
+class ResidualSpectrum(ShortRepr, Document):
     """Autocorrelation and power spectral density of one residual."""
+
+    KEYS = "correlation_time lag_one_correlation peak peak_share"
 
     period: float  # s between samples
     correlation: np.ndarray  # (lags,) autocorrelation at 0, 1, ... samples; correlation[0] = 1
@@ -20,6 +23,11 @@ class ResidualSpectrum(ShortRepr):
     density: np.ndarray  # (m,) (N m)^2/Hz or N^2/Hz
     peak: float  # Hz, of the largest density, weighted over two frequency steps either side
     peak_share: float  # of the power, within two frequency steps of the peak
+
+    @property
+    def lag_one_correlation(self) -> float:
+        """Returns the autocorrelation of neighbouring samples."""
+        return float(self.correlation[1])
 
 
 def estimate_residual_spectrum(

@@ -9,6 +9,7 @@ import numpy as np
 
 from modeler.core.errors import RobotError
 from modeler.core.figure import Picture
+from modeler.core.json import Document
 from modeler.core.table import format_percent
 from modeler.papers.paper import Paper
 from modeler.papers.quotation import read_numbers
@@ -58,7 +59,7 @@ class MethodRow:
 
 
 @dataclass(frozen=True)
-class MethodTable:
+class MethodTable(Document):
     """One table that compares a paper's results with ours.
 
     Attributes:
@@ -67,6 +68,8 @@ class MethodTable:
         rows: its lines.
         picture: a figure of the paper, drawn of the simulation.
     """
+
+    KEYS = "title settings rows"
 
     title: str
     settings: tuple[str, ...]

@@ -7,7 +7,6 @@ from .log import (
     check_suffix as check_suffix,
     parse_drive_gains as parse_drive_gains,
     parse_hidden_effect as parse_hidden_effect,
-    serialise_hidden_effects as serialise_hidden_effects,
     write_log as write_log,
     write_truth as write_truth,
 )

@@ -319,16 +319,8 @@ def write_truth(path: Path, log: SimulatedLog) -> None:
         "torque_noise": log.settings.torque_noise,
         "parameters": dict(log.truth.parameters),
         "random_parameters": list(log.truth.random_parameters),
-        "hidden_effects": serialise_hidden_effects(log),
+        "hidden_effects": list(log.truth.hidden_effects),
         "drive_gains": dict(log.settings.drive_gains),
     }
     text = json.dumps(convert_to_plain(content), indent=1, allow_nan=False)
     write_atomically(Path(path), f"{text}\n")
-
-
-def serialise_hidden_effects(log: SimulatedLog) -> list[dict[str, object]]:
-    """Returns the hidden effects for JSON."""
-    return [
-        {"effect": h.effect, "joint": h.joint, "values": dict(h.values)}
-        for h in log.truth.hidden_effects
-    ]

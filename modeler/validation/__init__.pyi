@@ -46,6 +46,7 @@ from .free_run_result import (
 from .models import (
     JointModelComparison as JointModelComparison,
     ModelComparison as ModelComparison,
+    ModelErrors as ModelErrors,
     check_joints as check_joints,
     compare_models as compare_models,
     describe_model_comparison as describe_model_comparison,

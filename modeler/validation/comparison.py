@@ -13,7 +13,7 @@ import numpy as np
 from modeler import regression
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
-from modeler.core.json import convert_to_plain, select_attributes
+from modeler.core.json import Document
 from modeler.core.result import Result
 from modeler.core.table import (
     POOLED,
@@ -238,14 +238,21 @@ def estimate_scale(measured: np.ndarray, predicted: np.ndarray) -> Scale | None:
 
 
 @dataclass(frozen=True)
-class LogError(ShortRepr):
+class LogError(ShortRepr, Document):
     """||measured - predicted|| / ||measured|| over the rows of one log that count."""
+
+    KEYS = "log samples relative_error by_unit joints=joint_errors"
 
     log: str
     samples: int  # rows that count for at least one joint
     relative_error: float  # all joints; NaN without torque
     joints: tuple[tuple[str, float], ...]  # by joint name; NaN where nothing counts
     by_unit: Mapping[str, float]  # all joints of one unit; NaN without torque
+
+    @property
+    def joint_errors(self) -> dict[str, float]:
+        """Returns the errors by joint; NaN where nothing counts."""
+        return dict(self.joints)
 
 
 def compute_errors_by_log(prediction: Prediction) -> tuple[LogError, ...]:
@@ -272,8 +279,10 @@ def _compute_error_ratio(e: np.ndarray, measured: np.ndarray) -> float:
 
 
 @dataclass(frozen=True)
-class Moment:
+class Moment(Document):
     """The sample with the largest absolute residual."""
+
+    KEYS = "log time"
 
     value: float  # N m or N, absolute
     log: str
@@ -285,8 +294,15 @@ class Moment:
 
 
 @dataclass(frozen=True, eq=False)
-class JointComparison(ShortRepr):
+class JointComparison(ShortRepr, Document):
     """How one joint is predicted; N m for a revolute joint, N for a prismatic one."""
+
+    KEYS = """
+        relative_error rms max=largest.value r2 max_at=largest unit=joint.effort_unit samples bias
+        predicted_sigma regions worst_window=worst structure spectrum explained_share=r2
+        systematic_share=shares.systematic_share noise_share=shares.noise_share method=shares.method
+        systematic_sigma=shares.sigma scale orders=order_peaks
+    """
 
     joint: JointInfo
     index: int  # column of the prediction
@@ -306,10 +322,23 @@ class JointComparison(ShortRepr):
     orders: spectra.OrderSpectrum | None  # None: too few samples, or the joint rests
     predicted_sigma: float | None  # rms standard deviation of the prediction; None: not known
 
+    @property
+    def order_peaks(self) -> tuple[residual_structure.SpectralLine, ...] | None:
+        """Returns the ripples of the residual, largest first; None where nothing tells."""
+        if self.orders is None:
+            return None
+        return tuple(residual_structure.find_order_peaks(self.orders, self.joint.unit))
+
 
 @dataclass(frozen=True, eq=False)
-class Comparison(Result):
+class Comparison(Result, Document):
     """What `compare` found; carries the prediction so that pictures can be drawn from it."""
+
+    KEYS = """
+        robot=prediction.robot logs=prediction.logs samples relative_error relative_error_pools
+        by_unit joints=joints[joint.name] excluded_joints=excluded_reasons by_log=logs
+        repeated_motions
+    """
 
     prediction: Prediction
     samples: int  # rows that count for at least one joint
@@ -319,26 +348,6 @@ class Comparison(Result):
     logs: tuple[LogError, ...]
     repeated_motions: tuple[residual_structure.Repetition, ...]  # empty: no motion was made twice
     by_unit: Mapping[str, float]  # relative error over the joints of one unit; NaN: no torque
-
-    def to_json(self) -> dict[str, Any]:
-        """Returns the comparison as plain numbers and text; undefined numbers are None."""
-        names = "log samples relative_error by_unit"
-        logs = [select_attributes(log, names) | {"joints": dict(log.joints)} for log in self.logs]
-        return convert_to_plain(
-            {
-                "robot": self.prediction.robot,
-                "logs": self.prediction.logs,
-                **select_attributes(self, "samples relative_error"),
-                "relative_error_pools": POOLED,
-                "by_unit": self.by_unit,
-                "joints": {joint.joint.name: _serialise_joint(joint) for joint in self.joints},
-                "excluded_joints": dict(self.excluded_joints),
-                "by_log": logs,
-                "repeated_motions": [
-                    {"method": r.kind, "periods": r.periods} for r in self.repeated_motions
-                ],
-            }
-        )
 
     def summary(self) -> str:
         """Returns plain text: one line per joint, what the shares mean, one line per log."""
@@ -361,6 +370,16 @@ class Comparison(Result):
         if len(self.logs) > 1:
             lines += ["", *align_columns(format_rows(build_log_columns(self), self.logs), (0,))]
         return "\n".join(line.rstrip() for line in lines)
+
+    @property
+    def relative_error_pools(self) -> str:
+        """Returns what `relative_error` puts together."""
+        return POOLED
+
+    @property
+    def excluded_reasons(self) -> dict[str, str]:
+        """Returns why joints are not judged, by name."""
+        return dict(self.excluded_joints)
 
 
 def compare(prediction: Prediction, ripple_windows: Prediction | None = None) -> Comparison:
@@ -434,39 +453,6 @@ def _compare_joint(
         orders=residual_structure.compute_ripple_spectrum(ripple_windows or prediction, index),
         predicted_sigma=sigma,
     )
-
-
-def _serialise_joint(item: JointComparison) -> dict[str, Any]:
-    joint_structure, spectrum, parts = item.structure, item.spectrum, item.shares
-    return {
-        **select_attributes(item, "relative_error rms"),
-        "max": item.largest.value,
-        "r2": item.r2,
-        "max_at": select_attributes(item.largest, "log time"),
-        "unit": item.joint.effort_unit,
-        **select_attributes(item, "samples bias predicted_sigma regions"),
-        "worst_window": item.worst,
-        "structure": joint_structure
-        and {
-            name: dict(getattr(joint_structure, name))
-            for name in ("shares", "other_joints", "motors")
-        }
-        | select_attributes(joint_structure, "own_motion best_predictor"),
-        "spectrum": spectrum
-        and {
-            "correlation_time": spectrum.correlation_time,
-            "lag_one_correlation": spectrum.correlation[1],
-        }
-        | select_attributes(spectrum, "peak peak_share"),
-        "explained_share": item.r2,
-        **{
-            name: parts and getattr(parts, name)
-            for name in ("systematic_share", "noise_share", "method")
-        },
-        "systematic_sigma": parts and parts.sigma,
-        "scale": item.scale,
-        "orders": item.orders and residual_structure.find_order_peaks(item.orders, item.joint.unit),
-    }
 
 
 # Comparisons of logs of any length.

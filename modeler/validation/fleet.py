@@ -2,13 +2,12 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
-from modeler.core.json import convert_to_plain, select_attributes
+from modeler.core.json import Document
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Result
 from modeler.core.table import Column, align_columns, format_percent, format_rows
@@ -53,7 +52,7 @@ class TemperatureEffect:
 
 
 @dataclass(frozen=True)
-class FleetFinding(ShortRepr):
+class FleetFinding(ShortRepr, Document):
     """A machine that drifts, or is apart from the others.
 
     Attributes:
@@ -70,6 +69,12 @@ class FleetFinding(ShortRepr):
         p_value: that a fleet in which nothing drifts shows this, all that was looked at counted.
         temperature: None where no temperature was logged.
         since: periods from begin on; a jump stays if it is in two.
+    """
+
+    KEYS = """
+        machine effect=quantity.effect joint=quantity.joint parameter=quantity.parameter
+        unit=quantity.unit shape begin end periods_since=since before change change_percent sigma
+        score p_value temperature
     """
 
     machine: str
@@ -97,7 +102,7 @@ class FleetFinding(ShortRepr):
 
 
 @dataclass(frozen=True, eq=False)
-class QuantityValues(ShortRepr):
+class QuantityValues(ShortRepr, Document):
     """One quantity of one machine; p periods.
 
     Attributes:
@@ -107,6 +112,8 @@ class QuantityValues(ShortRepr):
         sigmas: (p,) scatter from one period to the next included.
     """
 
+    KEYS = "periods times values sigmas"
+
     times: np.ndarray
     periods: tuple[str, ...]
     values: np.ndarray
@@ -114,7 +121,7 @@ class QuantityValues(ShortRepr):
 
 
 @dataclass(frozen=True, eq=False)
-class QuantityHistory(ShortRepr):
+class QuantityHistory(ShortRepr, Document):
     """One quantity of all machines.
 
     Attributes:
@@ -126,6 +133,11 @@ class QuantityHistory(ShortRepr):
         scores: its greatest change in sigmas, by machine with two periods and more.
     """
 
+    KEYS = """
+        effect=quantity.effect joint=quantity.joint parameter=quantity.parameter unit=quantity.unit
+        level scatter_factor=factor smallest_detectable machines=machine_values
+    """
+
     quantity: Quantity
     level: float
     factor: float
@@ -133,9 +145,43 @@ class QuantityHistory(ShortRepr):
     machines: Mapping[str, QuantityValues]
     scores: Mapping[str, float]
 
+    @property
+    def machine_values(self) -> dict[str, "MachineValues"]:
+        """Returns its values by machine, with the greatest change in sigmas."""
+        pairs = self.machines.items()
+        return {name: MachineValues(values, self.scores.get(name)) for name, values in pairs}
+
+
+@dataclass(frozen=True)
+class MachineValues(Document):
+    """A quantity of one machine; score: its greatest change in sigmas, None of one period."""
+
+    KEYS = "*values score"
+
+    values: QuantityValues
+    score: float | None
+
+
+@dataclass(frozen=True)
+class DescribedFinding(Document):
+    """A finding in numbers and in a sentence."""
+
+    KEYS = "*finding sentence"
+
+    finding: FleetFinding
+    sentence: str
+
+
+@dataclass(frozen=True)
+class SkippedFile:
+    """A log that was not used, and why."""
+
+    log: str
+    reason: str
+
 
 @dataclass(frozen=True, eq=False)
-class Fleet(Result):
+class Fleet(Result, Document):
     """What drifts where in a fleet of machines.
 
     Attributes:
@@ -149,6 +195,11 @@ class Fleet(Result):
         skipped_logs: logs that were not used, and why.
         warnings: what is wrong with the measurements.
         notes: what a reader must know.
+    """
+
+    KEYS = """
+        robot verdict time_unit=unit logs machines findings=described_findings quantities=histories
+        false_alarm unresolved skipped_logs=skipped_files warnings notes
     """
 
     robot: str
@@ -174,61 +225,15 @@ class Fleet(Result):
             return "drift"
         return "odd machine" if self.findings else "nothing drifts"
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the result for scripts; numbers that mean nothing are null."""
-        return convert_to_plain(
-            {
-                "robot": self.robot,
-                "verdict": self.verdict,
-                "time_unit": self.unit,
-                **select_attributes(self, "logs machines"),
-                "findings": [_build_finding_json(f, self.unit) for f in self.findings],
-                "quantities": [_build_history_json(each) for each in self.histories],
-                "false_alarm": self.false_alarm,
-                "unresolved": self.unresolved,
-                "skipped_logs": [{"log": place, "reason": why} for place, why in self.skipped_logs],
-                **select_attributes(self, "warnings notes"),
-            }
-        )
+    @property
+    def described_findings(self) -> tuple["DescribedFinding", ...]:
+        """Returns the findings with a sentence each."""
+        return tuple(DescribedFinding(f, describe_finding(f, self.unit)) for f in self.findings)
 
-
-_QUANTITY = "effect joint parameter unit"
-
-
-def _build_finding_json(finding: FleetFinding, unit: Unit) -> dict[str, Any]:
-    temperature = finding.temperature
-    return {
-        "machine": finding.machine,
-        **select_attributes(finding.quantity, _QUANTITY),
-        "shape": finding.shape,
-        "begin": finding.begin,
-        "end": finding.end,
-        "periods_since": finding.since,
-        **select_attributes(finding, "before change"),
-        "change_percent": finding.change_percent,
-        **select_attributes(finding, "sigma score p_value"),
-        "temperature": temperature
-        and {
-            **select_attributes(temperature, "lowest highest correlation"),
-            "is_correlated": temperature.is_correlated,
-            "is_shared": temperature.is_shared,
-        },
-        "sentence": describe_finding(finding, unit),
-    }
-
-
-def _build_history_json(each: QuantityHistory) -> dict[str, Any]:
-    machines = {}
-    for name, values in each.machines.items():
-        machines[name] = select_attributes(values, "periods times values sigmas")
-        machines[name]["score"] = each.scores.get(name)
-    return {
-        **select_attributes(each.quantity, _QUANTITY),
-        "level": each.level,
-        "scatter_factor": each.factor,
-        "smallest_detectable": each.smallest_detectable,
-        "machines": machines,
-    }
+    @property
+    def skipped_files(self) -> tuple["SkippedFile", ...]:
+        """Returns the logs that were not used, and why."""
+        return tuple(SkippedFile(*pair) for pair in self.skipped_logs)
 
 
 # What a fleet shows, in words and as tables of text.

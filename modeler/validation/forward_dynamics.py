@@ -14,6 +14,7 @@ from scipy.linalg import expm
 
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
+from modeler.core.json import Document
 from modeler.core.table import format_percent
 from modeler.estimation import scale_inertia
 from modeler.regression import find_shafts
@@ -235,7 +236,22 @@ class LoggedMotion:
 
 
 @dataclass(frozen=True)
-class Stability(ShortRepr):
+class SteepestGrowth:
+    """The moment at which a small error grows fastest.
+
+    Attributes:
+        rate: 1/s, largest real part of an eigenvalue of A.
+        log: its name.
+        time: s, in the log.
+    """
+
+    rate: float
+    log: str
+    time: float
+
+
+@dataclass(frozen=True)
+class Stability(ShortRepr, Document):
     """What becomes of small errors along the motion.
 
     Attributes:
@@ -246,6 +262,8 @@ class Stability(ShortRepr):
         at: s, when.
         fastest: 1/s, largest absolute value of an eigenvalue: how fine a step must be.
     """
+
+    KEYS = "is_unstable rate doubling_time seconds steepest=steepest_growth"
 
     rate: float
     seconds: float
@@ -285,6 +303,11 @@ class Stability(ShortRepr):
             "neither unstable nor stable by nature: nothing pulls the robot back to its path, so "
             "an error of the torque is integrated twice, and a long free run drifts with any model"
         )
+
+    @property
+    def steepest_growth(self) -> "SteepestGrowth":
+        """Returns where an error grows fastest."""
+        return SteepestGrowth(self.steepest, self.log, self.steepest_time)
 
 
 def analyse_stability(plant: FittedPlant, runs: Sequence[LoggedMotion]) -> Stability:

@@ -2,20 +2,19 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from modeler.core import figure as fig
 from modeler.core.brief import ShortRepr
-from modeler.core.json import convert_to_plain, select_attributes
+from modeler.core.json import Document
 from modeler.core.result import Result
 from modeler.core.table import DIGITS, format_percent
 from modeler.validation.forward_dynamics import Stability
 
 
 @dataclass(frozen=True)
-class JointFreeRun(ShortRepr):
+class JointFreeRun(ShortRepr, Document):
     """How one joint runs freely beside its log.
 
     Attributes:
@@ -29,6 +28,10 @@ class JointFreeRun(ShortRepr):
             than half of them it does not.
         windows_over_bound: starts after which it passed the bound.
         largest_error: rad or m, largest error in a window.
+    """
+
+    KEYS = """
+        unit fit constant_speed_fit whole_run_fit horizon windows_over_bound largest_error
     """
 
     name: str
@@ -103,7 +106,7 @@ class Path(ShortRepr):
 
 
 @dataclass(frozen=True, eq=False)
-class FreeRun(Result):
+class FreeRun(Result, Document):
     """The fitted robot left to itself under the logged torques.
 
     Attributes:
@@ -121,6 +124,11 @@ class FreeRun(Result):
         controlled: under a controller, where commands were logged.
         paths: of the windows.
         warnings: one sentence each.
+    """
+
+    KEYS = """
+        robot logs window windows bound joints=joints[name] stability numerical_error=numerical
+        controller=controlled warnings
     """
 
     robot: str
@@ -162,24 +170,6 @@ class FreeRun(Result):
         if self.controlled is not None:
             lines += ["", *self.controlled.format_lines()]
         return "\n".join([*lines, *([""] if self.warnings else []), *self.warnings])
-
-    def to_json(self) -> dict[str, Any]:
-        """Returns the run as plain data."""
-        s = self.stability
-        return convert_to_plain(
-            {
-                **select_attributes(self, "robot logs window windows bound"),
-                "joints": {
-                    joint.name: {name: x for name, x in vars(joint).items() if name != "name"}
-                    for joint in self.joints
-                },
-                "stability": select_attributes(s, "is_unstable rate doubling_time seconds")
-                | {"steepest": {"rate": s.steepest, "log": s.log, "time": s.steepest_time}},
-                "numerical_error": self.numerical,
-                "controller": self.controlled,
-                "warnings": self.warnings,
-            }
-        )
 
 
 def _format_percent(value: float | None) -> str:

@@ -4,14 +4,13 @@ import dataclasses
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.special import stdtr
 
 from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
-from modeler.core.json import convert_to_plain
+from modeler.core.json import Document
 from modeler.core.result import Result
 from modeler.core.table import align_columns, format_percent
 from modeler.estimation import IdentifiedModel
@@ -47,8 +46,38 @@ class JointModelComparison(ShortRepr):
     p_value: float
 
 
+@dataclass(frozen=True)
+class JointModelError:
+    """One joint of one model.
+
+    Attributes:
+        relative_error: ||measured - predicted|| / ||measured||.
+        rms: of the residual, in `unit`.
+        unit: "N m" or "N".
+        is_best: it is significantly better than every other model.
+        p_value: that the best and its nearest rival are equally good.
+    """
+
+    relative_error: float
+    rms: float
+    unit: str
+    is_best: bool
+    p_value: float
+
+
+@dataclass(frozen=True)
+class ModelErrors:
+    """One model of several; the relative errors of all rows, by unit and by joint."""
+
+    model: str
+    relative_error: float
+    by_unit: Mapping[str, float]
+    joints: Mapping[str, JointModelError]
+    best_joints: tuple[str, ...]
+
+
 @dataclass(frozen=True, eq=False)
-class ModelComparison(Result):
+class ModelComparison(Result, Document):
     """Models side by side, m of them.
 
     Attributes:
@@ -59,6 +88,8 @@ class ModelComparison(Result):
         by_unit: (m,) relative errors by unit.
         joints: those with rows and a torque.
     """
+
+    KEYS = "robot models"
 
     names: tuple[str, ...]
     predictions: tuple[Prediction, ...]
@@ -71,29 +102,30 @@ class ModelComparison(Result):
         """Finds the joints that the model predicts significantly better than every other."""
         return [item.joint.name for item in self.joints if item.best == model]
 
-    def to_json(self) -> dict[str, Any]:
-        """Returns the comparison as plain data, every model by its name."""
-        return {"robot": self.predictions[0].robot, "models": self.as_dicts()}
+    @property
+    def robot(self) -> str:
+        """Returns the name of the robot."""
+        return self.predictions[0].robot
 
-    def as_dicts(self) -> list[dict[str, Any]]:
-        """Returns the `models` of `compare --json`: errors of each, and where it is the best."""
-        return [
-            convert_to_plain(
+    @property
+    def models(self) -> tuple["ModelErrors", ...]:
+        """Returns the errors of each model, and where it is the best."""
+        return tuple(
+            ModelErrors(
+                name,
+                self.pooled[k],
+                self.by_unit[k],
                 {
-                    "model": name,
-                    "relative_error": self.pooled[k],
-                    "by_unit": self.by_unit[k],
-                    "joints": {
-                        item.joint.name: {"relative_error": item.errors[k], "rms": item.rms[k]}
-                        | {"unit": item.joint.effort_unit, "is_best": item.best == k}
-                        | {"p_value": item.p_value}
-                        for item in self.joints
-                    },
-                    "best_joints": self.find_best_joints(k),
-                }
+                    item.joint.name: JointModelError(
+                        item.errors[k], item.rms[k], item.joint.effort_unit, item.best == k,
+                        item.p_value,
+                    )
+                    for item in self.joints
+                },
+                tuple(self.find_best_joints(k)),
             )
             for k, name in enumerate(self.names)
-        ]
+        )  # fmt: skip
 
 
 def compare_models(names: Sequence[str], predictions: Sequence[Prediction]) -> ModelComparison:

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from modeler.core.json import Document
 from modeler.numerics import spectra, splines
 from modeler.numerics.noise import interpolate_between_gaps
 from modeler.validation.prediction import Prediction, select_full_rate
@@ -108,10 +109,15 @@ class BestPredictor:
 
 
 @dataclass(frozen=True)
-class ResidualStructure:
+class ResidualStructure(Document):
     """Shares of the residual variance that functions predict on motion not used to fit them.
 
     Coordinates of one trajectory go together, so the shares overlap and do not add up.
+    """
+
+    KEYS = """
+        shares=coordinate_shares other_joints=joint_shares motors=motor_shares own_motion
+        best_predictor
     """
 
     shares: tuple[tuple[str, float], ...]  # coordinate id -> share, in the order of COORDINATES
@@ -125,6 +131,21 @@ class ResidualStructure:
     def get_share(self, coordinate: str) -> float:
         """Returns the share of one coordinate; NaN where the logs do not hold it."""
         return dict(self.shares).get(coordinate, float("nan"))
+
+    @property
+    def coordinate_shares(self) -> dict[str, float]:
+        """Returns the shares by coordinate."""
+        return dict(self.shares)
+
+    @property
+    def joint_shares(self) -> dict[str, float]:
+        """Returns the shares by a function of the velocity of a joint, by its name."""
+        return dict(self.other_joints)
+
+    @property
+    def motor_shares(self) -> dict[str, float]:
+        """Returns the shares by a function of the velocity of a coupled motor."""
+        return dict(self.motors)
 
 
 def analyse_structure(prediction: Prediction, joint: int) -> ResidualStructure | None:
@@ -313,8 +334,10 @@ class Partner:
 
 
 @dataclass(frozen=True)
-class Repetition:
+class Repetition(Document):
     """The partners of all logs: times at which the robot did the same."""
+
+    KEYS = "method=kind periods"
 
     kind: Literal["laps", "logs"]
     partners: tuple[Partner, ...]

@@ -1,4 +1,4 @@
-"""The schemas of docs/schema: of every command, of model files and manifests, strict enough."""
+"""The schemas: of every command, of model files and manifests, strict enough."""
 
 import copy
 import json
@@ -9,14 +9,15 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
+from docsite.schemas import build_schemas, write_schemas
 from modeler.cli import main
 from modeler.cli.parser import read_commands
 from modeler.core.manifest import FORMAT as MANIFEST_FORMAT
 from modeler.estimation.model_file import FORMAT as MODEL_FORMAT
-from tests.json_schemas import check_schema, faults, schemas
+from tests.json_schemas import check_schema, faults
 from tests.modules import module
 
-OTHERS = {"definitions": 1, "pictures": 1, "manifest": MANIFEST_FORMAT, "model": MODEL_FORMAT}
+OTHERS = {"pictures": 1, "manifest": MANIFEST_FORMAT, "model": MODEL_FORMAT}
 
 # What scripts read: names that must not change between versions. A list stands for its entries, {}
 # for the entries of an object whose names are the user's.
@@ -90,7 +91,7 @@ def without(content: Any, fixed: Any) -> Iterator[tuple[str, Any]]:
 def test_a_renamed_field_is_noticed(results, command: str) -> None:
     content = results[command]
     check_schema(command, {**content, "further": {"entries": "may come"}})
-    assert content["schema"] == schemas()[command]["$id"]
+    assert content["schema"] == build_schemas()[command]["$id"]
     assert faults(command, {**content, "schema": f"urn:modeler:schema:{command}:2"})
     tried = 0
     for name, changed in without(copy.deepcopy(content), CONTRACT[command]):
@@ -113,10 +114,12 @@ def test_manifests_are_as_their_schema_says() -> None:
         assert faults("manifest", {k: v for k, v in raw.items() if k != "base"})
 
 
-def test_every_command_has_a_schema_and_every_schema_is_one() -> None:
+def test_every_command_has_a_schema_and_every_schema_is_one(tmp_path: Path) -> None:
+    write_schemas(tmp_path)
     versions = {**dict.fromkeys(read_commands(), 1), **OTHERS}
-    assert schemas().keys() == versions.keys()
+    assert build_schemas().keys() == versions.keys()
     for name, version in versions.items():
-        schema = schemas()[name]
+        schema = build_schemas()[name]
         Draft202012Validator.check_schema(schema)
         assert schema["$id"] == f"urn:modeler:schema:{name}:{version}" and schema["title"]
+        assert json.loads((tmp_path / f"{name}.json").read_text(encoding="utf-8")) == schema

@@ -186,7 +186,7 @@ def test_a_better_model_is_found_on_every_joint() -> None:
             assert item.rms[k] == pytest.approx(np.sqrt(np.mean(e**2)))
             size = np.linalg.norm(truth().measured[:, j])
             assert item.errors[k] == pytest.approx(np.linalg.norm(e) / size)
-    plain = found.as_dicts()
+    plain = found.to_json()["models"]
     assert [entry["model"] for entry in plain] == ["0.json", "1.json", "2.json"]
     assert plain[1]["best_joints"] == ["1", "2", "3"]
     assert plain[1]["joints"]["2"]["is_best"] and not plain[0]["joints"]["2"]["is_best"]
