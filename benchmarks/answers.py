@@ -50,8 +50,20 @@ def _told(case: _Case, folder: Path, seconds: float) -> dict[str, Cost]:
     logs = [str(folder / f"{seed}.parquet") for seed in (1, 2)]
     model = str(folder / "model.json")
     for seed, log in enumerate(logs, 1):
-        modeler(["simulate", case.robot, "--out", log, "--duration", str(seconds), "--seed",
-                 str(seed), "--hide", case.hidden])  # fmt: skip
+        modeler(
+            [
+                "simulate",
+                case.robot,
+                "--out",
+                log,
+                "--duration",
+                str(seconds),
+                "--seed",
+                str(seed),
+                "--hide",
+                case.hidden,
+            ]
+        )
     modeler(["fit", case.robot, logs[0], "--out", model])
     return {
         "fit": modeler(["fit", case.robot, logs[0], "--out", model]),
@@ -66,11 +78,20 @@ def _keys() -> tuple[Key, ...]:
         for command in ("fit", "compare", "diagnose"):
             own = command == "diagnose"
             keys += [
-                Key(f"{command}_seconds.{case.name}", "s", f"`modeler {command}` {LOGS[command]}.",
-                    case.must if own else None, case.aim if own else None),
-                Key(f"{command}_peak_mb.{case.name}", "MB", "The same: largest resident memory.",
-                    case.most if own else None),
-            ]  # fmt: skip
+                Key(
+                    f"{command}_seconds.{case.name}",
+                    "s",
+                    f"`modeler {command}` {LOGS[command]}.",
+                    case.must if own else None,
+                    case.aim if own else None,
+                ),
+                Key(
+                    f"{command}_peak_mb.{case.name}",
+                    "MB",
+                    "The same: largest resident memory.",
+                    case.most if own else None,
+                ),
+            ]
     return tuple(keys)
 
 

@@ -55,17 +55,32 @@ def _counted(folder: Path, main: Path, sources: tuple[str, ...], calls: int) -> 
     program = folder / f"count-{calls}"
     units = [str(folder / "module" / name) for name in sources if name.endswith(".c")]
     made = subprocess.run(
-        [*tools.command, *flags, "-march=haswell", f"-DCALLS={calls}", "-I",
-         str(folder / "module"), "-o", str(program), str(main), *units, "-lm"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        [
+            *tools.command,
+            *flags,
+            "-march=haswell",
+            f"-DCALLS={calls}",
+            "-I",
+            str(folder / "module"),
+            "-o",
+            str(program),
+            str(main),
+            *units,
+            "-lm",
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     if made.returncode:
         raise Missing(f"no code for -march=haswell here: {made.stderr.partition(chr(10))[0]}")
     out = folder / "callgrind.out"
     said = subprocess.run(
         ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", str(program)],
-        capture_output=True, text=True, check=True,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     found = re.search(r"Collected : (\d+)", said.stderr)
     if found is None:
         raise Missing("valgrind gave no count")
@@ -75,12 +90,16 @@ def _counted(folder: Path, main: Path, sources: tuple[str, ...], calls: int) -> 
 LINES = (
     Line(
         tuple(
-            Key(f"instructions.{name}", "1",
+            Key(
+                f"instructions.{name}",
+                "1",
                 "Of a sample's nonzero entries, for Haswell (callgrind).",
-                MUST[name], AIM[name])
+                MUST[name],
+                AIM[name],
+            )
             for name in ROBOTS
         ),
         _measure,
         15,
     ),
-)  # fmt: skip
+)

@@ -48,14 +48,16 @@ def peer(name: str, folder: Path) -> Path:
     own = next(f for f in functions if f.name() == "base_regressor")
     lines = casadi.CodeGenerator("peer", {"with_header": False})
     lines.add(own)
-    shim = _PEER.format(size=own.nnz_out(0), work=own.sz_w(), inputs=own.sz_arg(),
-                        outputs=own.sz_res())  # fmt: skip
+    shim = _PEER.format(
+        size=own.nnz_out(0), work=own.sz_w(), inputs=own.sz_arg(), outputs=own.sz_res()
+    )
     (folder / "peer.c").write_text(lines.dump() + shim, encoding="utf-8")
     tools, library = find_toolchain(), folder / "peer.so"
     subprocess.run(
         [*tools.command, *tools.flags, "-shared", "-o", library, folder / "peer.c", "-lm"],
-        check=True, capture_output=True,
-    )  # fmt: skip
+        check=True,
+        capture_output=True,
+    )
     return library
 
 
@@ -74,8 +76,10 @@ def _measure(quick: bool) -> Mapping[str, float | Missing]:
                 continue
             said = subprocess.run(
                 [program, str(_FEW if quick else _ROUNDS), "none", library],
-                capture_output=True, text=True, check=True,
-            )  # fmt: skip
+                capture_output=True,
+                text=True,
+                check=True,
+            )
         own, *_, theirs = (float(x.rpartition(" ")[2]) for x in said.stdout.splitlines())
         found |= dict(zip(keys, (theirs, theirs / own), strict=True))
     return found

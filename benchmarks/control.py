@@ -23,22 +23,37 @@ _ROUNDS, _FEW = 400, 40
 _AGREES = 1e-8
 _TWICE = (2.0, None)
 _MUST: Mapping[str, tuple[float | None, float | None]] = {
-    "inverse_dynamics": _TWICE, "inertia_matrix": _TWICE, "gravity": (None, None),
-    "coriolis_matrix": _TWICE, "coriolis_transpose": _TWICE, "momentum": (None, None),
-    "pose": (None, None), "jacobian": _TWICE, "jacobian_dot_qd": _TWICE, "twist": (None, None),
-    "derivatives": (1.2, 2.0), "forward_dynamics": (1.2, 2.0), "forward_derivatives": (1.2, 2.0),
-    "operational_inertia": (None, None), "slotine_li_regressor": (None, None),
-}  # fmt: skip
+    "inverse_dynamics": _TWICE,
+    "inertia_matrix": _TWICE,
+    "gravity": (None, None),
+    "coriolis_matrix": _TWICE,
+    "coriolis_transpose": _TWICE,
+    "momentum": (None, None),
+    "pose": (None, None),
+    "jacobian": _TWICE,
+    "jacobian_dot_qd": _TWICE,
+    "twist": (None, None),
+    "derivatives": (1.2, 2.0),
+    "forward_dynamics": (1.2, 2.0),
+    "forward_derivatives": (1.2, 2.0),
+    "operational_inertia": (None, None),
+    "slotine_li_regressor": (None, None),
+}
 _PEERS: Mapping[str, str] = {
-    "inverse_dynamics": "`rnea`", "inertia_matrix": "`crba`",
-    "gravity": "`computeGeneralizedGravity`", "coriolis_matrix": "`computeCoriolisMatrix`",
+    "inverse_dynamics": "`rnea`",
+    "inertia_matrix": "`crba`",
+    "gravity": "`computeGeneralizedGravity`",
+    "coriolis_matrix": "`computeCoriolisMatrix`",
     "coriolis_transpose": "`computeCoriolisMatrix` and a product",
-    "pose": "`updateFramePlacement`", "jacobian": "`computeFrameJacobian`",
-    "jacobian_dot_qd": "`getFrameClassicalAcceleration`", "twist": "`getFrameVelocity`",
-    "derivatives": "`computeRNEADerivatives`", "forward_dynamics": "`aba`",
+    "pose": "`updateFramePlacement`",
+    "jacobian": "`computeFrameJacobian`",
+    "jacobian_dot_qd": "`getFrameClassicalAcceleration`",
+    "twist": "`getFrameVelocity`",
+    "derivatives": "`computeRNEADerivatives`",
+    "forward_dynamics": "`aba`",
     "forward_derivatives": "`computeABADerivatives`",
     "operational_inertia": "`crba`, Cholesky, LLT",
-}  # fmt: skip
+}
 """Pinocchio's functions; it has none of the momentum and of Slotine and Li's regressor."""
 
 
@@ -77,24 +92,47 @@ def nanoseconds(name: str, rounds: int) -> dict[str, tuple[float, float, float]]
         standard = [chi.get(p.name, 0.0) for p in module.spec.standard]
         (folder / "chi.txt").write_text("\n".join(map(repr, map(float, standard))))
         said = subprocess.run(
-            [_compiled(module.spec, folder), str(rounds), str(folder / "chi.txt"),
-             str(folder / "model.txt"), str(pinocchio.library("gcc"))],
-            capture_output=True, text=True, check=True,
-        )  # fmt: skip
+            [
+                _compiled(module.spec, folder),
+                str(rounds),
+                str(folder / "chi.txt"),
+                str(folder / "model.txt"),
+                str(pinocchio.library("gcc")),
+            ],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
     lines = [line.split() for line in said.stdout.splitlines()]
     return {name: (float(a), float(b), float(c)) for name, a, b, c in lines}
 
 
 def _compiled(spec, folder: Path) -> Path:
     tools, program = find_toolchain(), folder / "control"
-    names = [f'-DHEADER="{spec.prefix}_control.h"', f"-DPREFIX={spec.prefix}",
-             f"-DMACRO={spec.prefix.upper()}"]  # fmt: skip
+    names = [
+        f'-DHEADER="{spec.prefix}_control.h"',
+        f"-DPREFIX={spec.prefix}",
+        f"-DMACRO={spec.prefix.upper()}",
+    ]
     units = [str(folder / "module" / unit) for unit in spec.sources if unit.endswith(".c")]
     made = subprocess.run(
-        [*tools.command, *tools.flags, *names, "-I", str(folder / "module"), "-o", str(program),
-         str(HERE / "control.c"), *units, "-lm", "-ldl"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        [
+            *tools.command,
+            *tools.flags,
+            *names,
+            "-I",
+            str(folder / "module"),
+            "-o",
+            str(program),
+            str(HERE / "control.c"),
+            *units,
+            "-lm",
+            "-ldl",
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     if made.returncode:
         raise Missing(f"the C does not compile: {made.stderr.partition(chr(10))[0]}")
     return program
@@ -106,8 +144,13 @@ def _keys() -> list[Key]:
         for function, goals in _MUST.items():
             keys.append(Key(f"control_ns.{function}.{name}", "ns", "One call."))
             if function in _PEERS:
-                keys.append(ratio(f"control_vs_pinocchio.{function}.{name}",
-                                  f"{_PEERS[function]} over it.", *goals))  # fmt: skip
+                keys.append(
+                    ratio(
+                        f"control_vs_pinocchio.{function}.{name}",
+                        f"{_PEERS[function]} over it.",
+                        *goals,
+                    )
+                )
     return keys
 
 

@@ -13,9 +13,16 @@ from modeler.codegen import derive, generate
 ROBOTS = {"puma560": (4600.0, 4300.0), "panda": (7400.0, 7000.0)}
 COMPILER = "arm-none-eabi-gcc"
 FLAGS = (
-    "-mcpu=cortex-m7", "-mfpu=fpv5-d16", "-mthumb", "-mfloat-abi=hard", "-std=c99", "-Os",
-    "-ffp-contract=fast", "-ffunction-sections", "-fdata-sections",
-)  # fmt: skip
+    "-mcpu=cortex-m7",
+    "-mfpu=fpv5-d16",
+    "-mthumb",
+    "-mfloat-abi=hard",
+    "-std=c99",
+    "-Os",
+    "-ffp-contract=fast",
+    "-ffunction-sections",
+    "-fdata-sections",
+)
 
 
 def _measure(quick: bool) -> Mapping[str, float]:
@@ -54,14 +61,17 @@ def bytes_of(name: str, precision: str) -> float:
 LINES = (
     Line(
         tuple(
-            Key(f"cortex_m7_bytes.{precision}.{name}", "B",
+            Key(
+                f"cortex_m7_bytes.{precision}.{name}",
+                "B",
                 "Base regressor (nonzero entries), -Os, sines included.",
                 ROBOTS[name][0] if precision == "single" else None,
-                ROBOTS[name][1] if precision == "single" else None)
+                ROBOTS[name][1] if precision == "single" else None,
+            )
             for name in ROBOTS
             for precision in ("single", "double")
         ),
         _measure,
         10,
     ),
-)  # fmt: skip
+)

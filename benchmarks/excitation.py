@@ -81,9 +81,12 @@ def slsqp(task: ExcitationTask, seconds: float) -> _Watched:
         while True:
             x = (draw_random_motion(task, rng) / watched.unit).ravel()
             minimize(
-                lambda flat: np.log(watched.condition(flat)), x, method="SLSQP",
-                constraints={"type": "ineq", "fun": room}, options={"maxiter": 200},
-            )  # fmt: skip
+                lambda flat: np.log(watched.condition(flat)),
+                x,
+                method="SLSQP",
+                constraints={"type": "ineq", "fun": room},
+                options={"maxiter": 200},
+            )
     except _Late:
         return watched
 

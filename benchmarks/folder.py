@@ -75,10 +75,21 @@ def _program(out: Path, tools, folder: Path, units: list[str]) -> Path:
     prefix = emitted(ROBOT).spec.prefix
     names = [f'-DHEADER="{prefix}.h"', f"-DPREFIX={prefix}", f"-DMACRO={prefix.upper()}"]
     subprocess.run(
-        [*tools.command, *tools.flags, *names, "-I", str(folder), "-o", str(out),
-         str(HERE / "regressor.c"), *units, "-lm", "-ldl"],
+        [
+            *tools.command,
+            *tools.flags,
+            *names,
+            "-I",
+            str(folder),
+            "-o",
+            str(out),
+            str(HERE / "regressor.c"),
+            *units,
+            "-lm",
+            "-ldl",
+        ],
         check=True,
-    )  # fmt: skip
+    )
     return out
 
 
@@ -98,12 +109,16 @@ def _interleaved(programs: Mapping[str, Path], rounds: int) -> dict[str, float]:
 LINES = (
     Line(
         tuple(
-            ratio(f"emitted_folder_vs_project_flags.{name}",
-                  f"Speed of the folder's own build, as a share of the project's flags ({ROBOT}, "
-                  "scalar).", 0.95, 1.0)
+            ratio(
+                f"emitted_folder_vs_project_flags.{name}",
+                f"Speed of the folder's own build, as a share of the project's flags ({ROBOT}, "
+                "scalar).",
+                0.95,
+                1.0,
+            )
             for name in WAYS
         ),
         _measure,
         15,
     ),
-)  # fmt: skip
+)

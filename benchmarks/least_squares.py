@@ -51,16 +51,17 @@ LINES = (
                 key
                 for name in ROBOTS
                 for key in (
-                    Key(f"fused_r_seconds.{name}", "s",
-                        "Triangles of 3e5 samples from motion and torques."),
-                    ratio(f"fused_r_vs_lstsq.{name}",
-                          "numpy.linalg.lstsq on a ready W over them."),
-                    ratio(f"fused_r_vs_gram.{name}",
-                          "W.T @ W on a ready W over them."),
+                    Key(
+                        f"fused_r_seconds.{name}",
+                        "s",
+                        "Triangles of 3e5 samples from motion and torques.",
+                    ),
+                    ratio(f"fused_r_vs_lstsq.{name}", "numpy.linalg.lstsq on a ready W over them."),
+                    ratio(f"fused_r_vs_gram.{name}", "W.T @ W on a ready W over them."),
                 )
             ),
         ),
         _measure,
         60,
     ),
-)  # fmt: skip
+)

@@ -16,9 +16,16 @@ from modeler.derivation import draw_random_states
 from modeler.runtime import CompiledModel, load_module
 
 ROBOTS = (
-    "sr400", "dvrk-psm", "five-bar", "3rrr", "delta", "orthoglide-2003", "orthoglide-2012",
-    "stewart", "evra",
-)  # fmt: skip
+    "sr400",
+    "dvrk-psm",
+    "five-bar",
+    "3rrr",
+    "delta",
+    "orthoglide-2003",
+    "orthoglide-2012",
+    "stewart",
+    "evra",
+)
 OPEN = ("sr400", "dvrk-psm")
 """Those whose loops are solved in closed form: they are trees."""
 SAMPLES = 4000

@@ -80,13 +80,17 @@ LINES = (
             key
             for name in ROBOTS
             for key in (
-                Key(f"dense_w_vs_stream_fill.{name}", "x",
+                Key(
+                    f"dense_w_vs_stream_fill.{name}",
+                    "x",
                     "W of 1e6 samples into `out=`, over a streaming fill of its bytes.",
-                    1.2, 1.0),
+                    1.2,
+                    1.0,
+                ),
                 Key(f"dense_w_seconds.{name}", "s", "W of 1e6 samples into `out=`."),
             )
         ),
         _measure,
         40,
     ),
-)  # fmt: skip
+)

@@ -58,11 +58,17 @@ def _measure(quick: bool) -> Mapping[str, float]:
 LINES = (
     Line(
         (
-            Key("first_picture_vs_reading", "x", "All 21 channels of a log of 600 000 rows in the "
-                "studio, thinned, over reading the Parquet file.", 3.0, 1.5),
+            Key(
+                "first_picture_vs_reading",
+                "x",
+                "All 21 channels of a log of 600 000 rows in the "
+                "studio, thinned, over reading the Parquet file.",
+                3.0,
+                1.5,
+            ),
             Key("zoom_seconds", "s", "The slowest of four windows of it, all channels.", 0.2, 0.05),
         ),
         _measure,
         10,
     ),
-)  # fmt: skip
+)

@@ -72,18 +72,33 @@ def program_of(name: str, folder: Path) -> Path:
     units = [str(folder / "module" / unit) for unit in files if unit.endswith(".c")]
     program = folder / "regressor"
     made = subprocess.run(
-        [*tools.command, *tools.flags, *names, "-I", str(folder / "module"), "-o", str(program),
-         str(HERE / "regressor.c"), *units, "-lm", "-ldl"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        [
+            *tools.command,
+            *tools.flags,
+            *names,
+            "-I",
+            str(folder / "module"),
+            "-o",
+            str(program),
+            str(HERE / "regressor.c"),
+            *units,
+            "-lm",
+            "-ldl",
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     if made.returncode:
         raise Missing(f"the C of {name} does not compile: {made.stderr.partition(chr(10))[0]}")
     return program
 
 
 def _keys() -> list[Key]:
-    must = {"scalar": {"puma560": (15.0, 16.0), "panda": (13.0, 14.0)},
-            "batch": {"puma560": (80.0, 107.0), "panda": (70.0, 94.0)}}  # fmt: skip
+    must = {
+        "scalar": {"puma560": (15.0, 16.0), "panda": (13.0, 14.0)},
+        "batch": {"puma560": (80.0, 107.0), "panda": (70.0, 94.0)},
+    }
     keys = []
     for name in ROBOTS:
         keys += [
@@ -97,8 +112,11 @@ def _keys() -> list[Key]:
         for kind in pinocchio.COMPILERS:
             peer = f"Pinocchio's regressor ({kind})"
             keys.append(Key(f"pinocchio_ns.{kind}.{name}", "ns", f"{peer}, a sample."))
-            for way, text in (("scalar", "dense"), ("nonzeros", "nonzero entries"),
-                              ("batch", "by tiles of 8")):  # fmt: skip
+            for way, text in (
+                ("scalar", "dense"),
+                ("nonzeros", "nonzero entries"),
+                ("batch", "by tiles of 8"),
+            ):
                 goals = must.get(way, {}).get(name, (None, None)) if kind == "gcc" else (None, None)
                 keys.append(
                     ratio(f"{way}_vs_pinocchio_{kind}.{name}", f"It over ours, {text}.", *goals)

@@ -7,9 +7,12 @@ from benchmarks.child import cost, least
 from benchmarks.line import Key, Line
 
 DERIVED: Mapping[str, tuple[float, float] | tuple[None, None]] = {
-    "wrist": (0.45, 0.3), "puma560": (0.45, 0.3), "panda": (0.45, 0.3),
-    "orthoglide-2003": (None, None), "evra": (0.9, 0.6),
-}  # fmt: skip
+    "wrist": (0.45, 0.3),
+    "puma560": (0.45, 0.3),
+    "panda": (0.45, 0.3),
+    "orthoglide-2003": (None, None),
+    "evra": (0.9, 0.6),
+}
 """Robots, with what must be reached and what would be best, s."""
 
 _LIBRARIES = "import numpy, sympy, flint, casadi"

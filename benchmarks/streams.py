@@ -96,8 +96,9 @@ def _unfiltered(quick: bool) -> Mapping[str, float]:
     with tempfile.TemporaryDirectory() as scratch:
         log, model = Path(scratch) / "log.parquet", str(Path(scratch) / "model.json")
         write_log(log, 300_000 // (_QUICK if quick else 1))
-        used = modeler(["fit", ROBOT, str(log), "--out", model, "--parallel-cutoff", "0",
-                        "--decimate", "1"])  # fmt: skip
+        used = modeler(
+            ["fit", ROBOT, str(log), "--out", model, "--parallel-cutoff", "0", "--decimate", "1"]
+        )
     return {"unfiltered_fit_cpu_seconds": used.cpu, "unfiltered_fit_peak_mb": used.peak}
 
 
@@ -105,14 +106,17 @@ LINES = (
     Line(_keys(), _measure, 60),
     Line(
         (
-            Key("unfiltered_fit_cpu_seconds", "s",
-                "`modeler fit` of 3e5 samples of 6 joints, every sample a row: processor time."),
+            Key(
+                "unfiltered_fit_cpu_seconds",
+                "s",
+                "`modeler fit` of 3e5 samples of 6 joints, every sample a row: processor time.",
+            ),
             Key("unfiltered_fit_peak_mb", "MB", "The same: largest resident memory."),
         ),
         _unfiltered,
         30,
     ),
-)  # fmt: skip
+)
 
 
 def _once(samples: int) -> None:
@@ -121,8 +125,10 @@ def _once(samples: int) -> None:
         write_log(log, samples)
         used = modeler(["fit", ROBOT, str(log), "--out", str(Path(scratch) / "model.json")])
         size = log.stat().st_size / 1e9
-    print(f"{samples} samples, {size:.1f} GB: {used.wall:.1f} s, {used.cpu:.1f} s of processors, "
-          f"{used.peak:.0f} MB")  # fmt: skip
+    print(
+        f"{samples} samples, {size:.1f} GB: {used.wall:.1f} s, {used.cpu:.1f} s of processors, "
+        f"{used.peak:.0f} MB"
+    )
 
 
 if __name__ == "__main__":

@@ -38,15 +38,29 @@ def _program(derivation, precision, scratch: Path) -> Path:
     module, folder = generate(derivation, precision=precision), scratch / precision
     write_emitted(module, folder)
     tools, spec = find_toolchain(), module.spec
-    names = [f'-DHEADER="{spec.prefix}.h"', f'-DTILE_HEADER="{spec.prefix}_tile.h"',
-             f"-DPREFIX={spec.prefix}", f"-DMACRO={spec.prefix.upper()}"]  # fmt: skip
+    names = [
+        f'-DHEADER="{spec.prefix}.h"',
+        f'-DTILE_HEADER="{spec.prefix}_tile.h"',
+        f"-DPREFIX={spec.prefix}",
+        f"-DMACRO={spec.prefix.upper()}",
+    ]
     units = [folder / n for n in (f"{spec.prefix}.c", f"{spec.prefix}_tile.c")]
     program = scratch / f"program-{precision}"
     subprocess.run(
-        [*tools.command, *tools.flags, *names, "-I", folder, "-o", program, HERE / "tile.c",
-         *units, "-lm"],
+        [
+            *tools.command,
+            *tools.flags,
+            *names,
+            "-I",
+            folder,
+            "-o",
+            program,
+            HERE / "tile.c",
+            *units,
+            "-lm",
+        ],
         check=True,
-    )  # fmt: skip
+    )
     return program
 
 
@@ -75,9 +89,11 @@ LINES = (
             for name in ROBOTS
             for key in (
                 Key(f"single_tile_ns.{name}", "ns", "A sample of a tile in single precision."),
-                ratio(f"single_tiles_vs_double.{name}",
-                      "Tile in double over it.",
-                      *((1.7, 2.0) if name != "wrist" else ())),
+                ratio(
+                    f"single_tiles_vs_double.{name}",
+                    "Tile in double over it.",
+                    *((1.7, 2.0) if name != "wrist" else ()),
+                ),
             )
         ),
         _single,
@@ -85,11 +101,14 @@ LINES = (
     ),
     Line(
         tuple(
-            Key(f"columns_over_rows.{name}", "x",
-                "W by columns over W by rows, one thread, median of pairs.")
+            Key(
+                f"columns_over_rows.{name}",
+                "x",
+                "W by columns over W by rows, one thread, median of pairs.",
+            )
             for name in ROBOTS
         ),
         _columns,
         20,
     ),
-)  # fmt: skip
+)

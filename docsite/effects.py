@@ -130,15 +130,21 @@ def portrait(name: str) -> Portrait:
     shown = _shown(effect, scene)
     picture = _picture(effect, shown.found)
     parts = [
-        _scene_words(shown, scene), "",
+        _scene_words(shown, scene),
+        "",
         f'<div class="wide" markdown="1">![Residual with {cell(effect.title)} hidden]'
-        f"({name}.png)</div>", "",
-        cell(picture.caption.removeprefix(f"Look for: {effect.signature}. ")), "",
-        "What the diagnosis says of it:", "", block("\n".join(_told(shown.found)), "text"),
+        f"({name}.png)</div>",
+        "",
+        cell(picture.caption.removeprefix(f"Look for: {effect.signature}. ")),
+        "",
+        "What the diagnosis says of it:",
+        "",
+        block("\n".join(_told(shown.found)), "text"),
         "The same by hand; the picture is "
-        f"{code(f'pictures/{picture.name}.png')}, with its numbers as CSV beside it:", "",
+        f"{code(f'pictures/{picture.name}.png')}, with its numbers as CSV beside it:",
+        "",
         block("\n".join(scene.commands(name)), "sh"),
-    ]  # fmt: skip
+    ]
     page = _page(effect, "\n".join(parts), _apart(effect, shown), _shapes(effect, shown.found))
     return Portrait(effect, page, _png(picture), _png(_small(picture), (4.0, 2.7)))
 
@@ -159,12 +165,14 @@ def effects_index(found: Sequence[Portrait]) -> str:
         rows = [
             (
                 f"[![{item.effect.id}]({item.effect.id}-small.png)]({item.effect.id}.md)"
-                if item.thumbnail else "",
+                if item.thumbnail
+                else "",
                 f"[{cell(item.effect.id)}]({item.effect.id}.md): {cell(item.effect.title)}<br>"
                 f"{cell(item.effect.signature)}",
             )
-            for item in found if item.effect.family == family
-        ]  # fmt: skip
+            for item in found
+            if item.effect.family == family
+        ]
         parts += [f"## {title}\n", table(("picture", "effect, and how it shows"), rows)]
     return "\n".join(parts)
 
@@ -233,19 +241,21 @@ def _png(picture: Picture, size: tuple[float, float] | None = None) -> bytes:
 
 def _page(effect: Effect, shown: str, apart: str, shapes: Mapping[str, float]) -> str:
     also = f" Also called {', '.join(map(code, effect.aliases))}." if effect.aliases else ""
-    parts = [
-        f"# {cell(effect.title[0].upper() + effect.title[1:])}", "",
-        f"{code(effect.id)} in a robot file and in commands.{also}", "",
-        block(effect.equation, "text"),
-        *_parameters(effect), "",
-        f"**Range.** {cell(effect.range)}.", "", f"**Source.** {cell(effect.source)}.", "",
-        "## What it leaves in the residual", "",
-        f"Look for: {cell(effect.signature)}.", "", shown, "",
-        "## Confounders", "", f"{cell(_sentence(effect.confounders))}", "",
-        apart, "",
-        "## In a robot file", "", _written(effect, shapes),
-    ]  # fmt: skip
-    return "\n".join(parts)
+    return "\n\n".join(
+        [
+            f"# {cell(effect.title[0].upper() + effect.title[1:])}",
+            f"{code(effect.id)} in a robot file and in commands.{also}",
+            "\n".join([block(effect.equation, "text"), *_parameters(effect)]),
+            f"**Range.** {cell(effect.range)}.",
+            f"**Source.** {cell(effect.source)}.",
+            "## What it leaves in the residual",
+            f"Look for: {cell(effect.signature)}.",
+            shown,
+            f"## Confounders\n\n{cell(_sentence(effect.confounders))}",
+            apart,
+            f"## In a robot file\n\n{_written(effect, shapes)}",
+        ]
+    )
 
 
 def _sentence(text: str) -> str:
@@ -314,14 +324,17 @@ def _apart(effect: Effect, shown: _Shown) -> str:
         parts += [f"Not distinguished by this log: {', '.join(ties)}.", ""]
     if rivals and shown.found.effects[0] is finding:
         parts += [
-            "What others would explain of the variance that it explains here:", "",
+            "What others would explain of the variance that it explains here:",
+            "",
             table(("rival", "explains"), rivals),
-        ]  # fmt: skip
+        ]
     if between := _between(finding, shown):
         parts += [
-            "", "The motion that makes the difference large, for the model above:", "",
+            "",
+            "The motion that makes the difference large, for the model above:",
+            "",
             block(f"modeler excite arm.model.json --between {between} --out motion.csv", "sh"),
-        ]  # fmt: skip
+        ]
     return "\n".join(parts)
 
 
@@ -362,8 +375,8 @@ def _written(effect: Effect, shapes: Mapping[str, float]) -> str:
         text = insert_effect('name = "arm"\n', effect.id, joint, shapes)
         shaft = '\n[coupling]\n2 = "q1 + q2"  # the motor of joint 2 also turns with joint 1\n'
         return block(text[text.index("[effects]") :] + shaft * effect.is_coupled, "toml")
-    if effect.obstacle:
-        return f"No column carries it: {cell(effect.obstacle)}."
+    if effect.hindrance:
+        return f"No column carries it: {cell(effect.hindrance)}."
     return (
         f"No robot file names it. `modeler add arm.model.json {effect.id} run.parquet --out "
         "better.model.json` puts it into the model."

@@ -49,20 +49,22 @@ def exhibit(name: str) -> Exhibit:
     derivation, shown = derive(robot), show(robot)
     sizes, functions = _emitted(derivation)
     text = read_builtin_robot(name)
-    parts = [
-        f"# {name}", "", f"**{cell(robot.title)}**", "", _notes(text), "", *_written_about(name),
-        f"![{name}]({name}.png){{ width=420 }}", "", _counts(derivation), "",
-        "## Table", "", _mdh(text), "",
-        "## Base parameters", "", format_base_parameters(derivation.base, "markdown"),
-        "", *coefficients(derivation),
-        "## C", "", _sum(sizes), "", table(("file", "lines", "bytes"), _rows(sizes)), "",
-        table(("function", "additions", "multiplications"), functions), "",
-        "## File", "", block(text, "toml"),
-    ]  # fmt: skip
+    links = "".join(f"{line}\n" for line in _written_about(name))
+    numbered = "".join(f"{line}\n" for line in coefficients(derivation))
+    paragraphs = [
+        f"# {name}\n\n**{cell(robot.title)}**\n\n{_notes(text)}",
+        f"{links}![{name}]({name}.png){{ width=420 }}\n\n{_counts(derivation)}",
+        f"## Table\n\n{_mdh(text)}\n\n## Base parameters",
+        f"{format_base_parameters(derivation.base, 'markdown')}",
+        f"{numbered}## C\n\n{_sum(sizes)}",
+        table(("file", "lines", "bytes"), _rows(sizes)),
+        table(("function", "additions", "multiplications"), functions),
+        f"## File\n\n{block(text, 'toml')}",
+    ]
     return Exhibit(
         name,
         robot.title,
-        "\n".join(parts),
+        "\n\n".join(paragraphs),
         render_picture(shown.skeleton, shown.posture, ".png"),
         len(robot.coordinates),
         derivation.base.rank,
@@ -83,11 +85,14 @@ def gallery_index(exhibits: Sequence[Exhibit]) -> str:
     rows = [
         (
             f"[![{found.name}]({found.name}.png){{ width=120 }}]({found.name}.md)",
-            f"[{found.name}]({found.name}.md)", cell(found.title),
-            str(found.joints), str(found.base), str(found.lines),
+            f"[{found.name}]({found.name}.md)",
+            cell(found.title),
+            str(found.joints),
+            str(found.base),
+            str(found.lines),
         )
         for found in exhibits
-    ]  # fmt: skip
+    ]
     head = ("picture", "name", "robot", "coordinates", "base parameters", "lines of C")
     return (
         "# Robots\n\nThe built-in robots, as `modeler robots` lists them. Any command takes their "
@@ -101,21 +106,19 @@ def gallery_front(robots: Sequence[Exhibit], effects: Sequence[Portrait]) -> str
     arms = [(found.name, f"robots/{found.name}.png", f"robots/{found.name}.md") for found in robots]
     seen = [
         (item.effect.id, f"effects/{item.effect.id}-small.png", f"effects/{item.effect.id}.md")
-        for item in effects if item.thumbnail is not None
-    ]  # fmt: skip
-    return "\n".join([
-        "# Gallery", "",
-        "## [Robots](robots/index.md)", "",
-        f"The {len(robots)} built-in robots: table, base parameters, size of the C.", "",
-        _thumbnails(arms), "",
-        "## [Effects](effects/index.md)", "",
+        for item in effects
+        if item.thumbnail is not None
+    ]
+    return (
+        "# Gallery\n\n## [Robots](robots/index.md)\n\n"
+        f"The {len(robots)} built-in robots: table, base parameters, size of the C.\n\n"
+        f"{_thumbnails(arms)}\n\n## [Effects](effects/index.md)\n\n"
         f"The {len(effects)} physical effects that a model may lack: equation, what each leaves in "
-        "the residual, what it is mistaken for, the motion that shows it.", "",
-        _thumbnails(seen), "",
-        "## [Studies](../studies/measured-sets.md)", "",
-        "Measured logs of real machines that others have published: what one command says of each.",
-        "",
-    ])  # fmt: skip
+        "the residual, what it is mistaken for, the motion that shows it.\n\n"
+        f"{_thumbnails(seen)}\n\n## [Studies](../studies/measured-sets.md)\n\n"
+        "Measured logs of real machines that others have published: what one command says of "
+        "each.\n"
+    )
 
 
 def _thumbnails(shown: Sequence[tuple[str, str, str]]) -> str:

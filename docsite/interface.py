@@ -5,9 +5,18 @@ import importlib.util
 import inspect
 
 STAGES = (
-    "robot", "derivation", "formulas", "codegen", "runtime", "regression", "estimation",
-    "validation", "diagnosis", "simulation", "papers",
-)  # fmt: skip
+    "robot",
+    "derivation",
+    "formulas",
+    "codegen",
+    "runtime",
+    "regression",
+    "estimation",
+    "validation",
+    "diagnosis",
+    "simulation",
+    "papers",
+)
 """Stages with pages of their own, in the order of the data; `modeler.api` comes before them."""
 
 

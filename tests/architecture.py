@@ -7,10 +7,7 @@ from functools import cache
 from pathlib import Path
 
 NORTH = ("effects", "robot", "derivation", "formulas", "codegen")
-SOUTH = (
-    "numerics", "runtime", "logs", "regression", "estimation", "diagnosis", "validation",
-    "excitation",
-)  # fmt: skip
+SOUTH = tuple("numerics runtime logs regression estimation diagnosis validation excitation".split())
 
 # Which packages a package may import, besides itself. The south knows a robot by its manifest only,
 # and of the north the catalogue of effects, which imports nothing but the core: columns of an
@@ -247,7 +244,7 @@ def circles(package: Path) -> list[set[str]]:
         }
         for name, path in names.items()
         if path.name != "__init__.py"
-    }  # fmt: skip
+    }
     reached = {name: _reached(graph, name) for name in graph}
     rings = {
         frozenset({name, *(other for other in reached[name] if name in reached[other])})

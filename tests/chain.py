@@ -17,9 +17,7 @@ from modeler import api
 from modeler.core.manifest import EmittedModule
 from modeler.core.options import DiagnoseOptions
 from modeler.effects.catalogue import find_effect
-from modeler.estimation.model_file import IdentifiedModel
 from modeler.regression.log import Log
-from modeler.regression.motion import Processing
 from modeler.regression.read import read_log
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import Robot
@@ -47,12 +45,7 @@ class Chain:
                 self._logs[key] = read_log(place, self.compiled.spec)
         return self._logs[key]
 
-    def fit(
-        self,
-        logs: Sequence[Log | Path],
-        processing: Processing | None = None,
-        method: Any = "weighted",
-    ) -> IdentifiedModel:
+    def fit(self, logs, processing=None, method="weighted"):
         """The model fitted to logs; without a processing, with one that is chosen from them."""
         observation = api.observe(self.compiled, logs, processing)
         return api.fit(self.derivation, self.emitted, observation, method)

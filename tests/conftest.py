@@ -34,9 +34,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--regenerate", action="store_true", help="rewrite generated/ instead of comparing with it"
     )
     parser.addoption(
-        "--every", type=number_of_runs, default=1, metavar="RUNS",
+        "--every",
+        type=number_of_runs,
+        default=1,
+        metavar="RUNS",
         help="run each case that repeats what others show once in so many runs",
-    )  # fmt: skip
+    )
     parser.addoption(
         "--day", type=int, default=today(), help="where no run is recorded yet; default: today"
     )

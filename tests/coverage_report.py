@@ -40,9 +40,11 @@ def report_lines(report: Mapping[str, Any]) -> Iterator[str]:
 def _counts(summary: Mapping[str, int]) -> tuple[int, int, int, int]:
     """Lines, of them run; branches, of them taken."""
     return (
-        summary["num_statements"], summary["covered_lines"],
-        summary["num_branches"], summary["covered_branches"],
-    )  # fmt: skip
+        summary["num_statements"],
+        summary["covered_lines"],
+        summary["num_branches"],
+        summary["covered_branches"],
+    )
 
 
 def main() -> None:

@@ -38,9 +38,7 @@ def base_of(model: SymbolicModel, *more: Any, **named: Any) -> BaseParameters:
     return _BASES[id(model)]
 
 
-def emitted_of(
-    model: SymbolicModel, base: BaseParameters, *more: Any, **named: Any
-) -> EmittedModule:
+def emitted_of(model, base, *more, **named):
     plain = (*more, *named.values()) in ((), (None, "double", False, None))
     if not plain or _BASES.get(id(model)) is not base:
         return emit(model, base, *more, **named)

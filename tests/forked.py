@@ -14,18 +14,20 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from modeler.cli import main
 from modeler.cli.parser import parse_words
 from tests.repository import ROOT
 
 COMMANDS = (
-    "compare m.json a.csv", "derive wrist", "fit wrist a.csv --out m.json",
-    "generate wrist --out c", "simulate wrist --out a.csv",
-)  # fmt: skip
+    "compare m.json a.csv",
+    "derive wrist",
+    "fit wrist a.csv --out m.json",
+    "generate wrist --out c",
+    "simulate wrist --out a.csv",
+)
 PACKAGES = ("sympy", "cffi", "jinja2", "scipy.signal", "pyarrow.parquet", "pyarrow.csv")
 """What is loaded: no matplotlib, which reads the environment when it is loaded."""
 
@@ -41,14 +43,14 @@ class Forks:
     def __init__(self) -> None:
         env = {**without_coverage(), "PYTHONPATH": str(ROOT)}
         self._server = subprocess.Popen(
-            [sys.executable, "-m", "tests.forked"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-            text=True, env=env,
-        )  # fmt: skip
+            [sys.executable, "-m", "tests.forked"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+            env=env,
+        )
 
-    def run(
-        self, words: tuple[str, ...], folder: Path, env: Mapping[str, str], seconds: float,
-        file_limit: int | None = None,
-    ) -> subprocess.CompletedProcess[str]:  # fmt: skip
+    def run(self, words, folder, env, seconds, file_limit=None):
         """The command as a program of its own; its status is that of SIGALRM after the seconds."""
         assert self._server.stdin is not None and self._server.stdout is not None
         with tempfile.TemporaryDirectory() as name:
@@ -65,10 +67,7 @@ class Forks:
         self._server.communicate()
 
 
-def _child(
-    words: list[str], streams: list[str], folder: str, env: dict[str, str], seconds: int,
-    file_limit: int | None,
-) -> NoReturn:  # fmt: skip
+def _child(words, streams, folder, env, seconds, file_limit):
     """What stands between a fork and the program: its folder, variables, streams and limits."""
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     for number, place in enumerate(streams, start=1):

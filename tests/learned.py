@@ -46,10 +46,13 @@ def text_with(robot: str, laws: Mapping[str, tuple[str, Law]], more: str = "") -
     for k, (joint, (equation, law)) in enumerate(laws.items()):
         name, prefix = f"learned_{joint}", f"Law{'abcdef'[k]}"
         tables += [
-            f"[own_effects.{name}]", f'columns = {{{prefix} = "{equation}"}}', 'unit = "N*m"',
+            f"[own_effects.{name}]",
+            f'columns = {{{prefix} = "{equation}"}}',
+            'unit = "N*m"',
             f"law = {{low = {list(law.low)}, high = {list(law.high)}, cells = {list(law.cells)}, "
-            f"values = {list(law.values)}}}", "",
-        ]  # fmt: skip
+            f"values = {list(law.values)}}}",
+            "",
+        ]
         lines += f'{name} = ["{joint}"]\n'
     head, section, rest = text.partition("[effects]\n")
     return "\n".join([head, *tables, section or "[effects]\n"]) + lines + rest

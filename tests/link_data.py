@@ -34,9 +34,7 @@ def links(seed: int = 1) -> dict[str, float]:
     return values
 
 
-def text(
-    values: dict[str, float], uncertainty: dict[str, float] | None = None, held: tuple = ()
-) -> str:
+def text(values, uncertainty=None, held=()):
     """The robot file."""
     lines = [TABLE, "[parameters]", *(f"{name} = {float(x)!r}" for name, x in values.items())]
     lines += [f"held = {list(held)!r}"] if held else []

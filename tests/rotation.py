@@ -7,7 +7,6 @@ The record is kept in pytest's cache folder (`modeler/rotation`): case -> runs i
 import argparse
 import time
 from collections import Counter, defaultdict
-from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 from zlib import crc32
 
@@ -27,6 +26,11 @@ def rotating(*cases: Any) -> list[Any]:
         pytest.param(*(case if isinstance(case, tuple) else (case,)), marks=pytest.mark.rotating)
         for case in cases
     ]
+
+
+def with_cases(names: str, *cases: Any, **options: Any) -> Any:
+    """Decorator of a test: `parametrize` by names, separated by commas, and a case each."""
+    return pytest.mark.parametrize(names, cases, **options)
 
 
 def slow_rotating(group: str) -> Any:
@@ -59,9 +63,7 @@ class Rotation:
         others: the other robots; neighbours have neighbouring runs.
     """
 
-    def __init__(
-        self, config: pytest.Config, kinds: Collection[str], others: Sequence[str]
-    ) -> None:
+    def __init__(self, config, kinds, others):
         self._config, self._kinds, self._others = config, kinds, others
         self._waits: dict[str, int] = {}
         self._ran: set[str] = set()
@@ -107,9 +109,7 @@ class Rotation:
             )
 
 
-def rotating_cases(
-    items: Collection[pytest.Item], kinds: Collection[str], others: Sequence[str], every: int
-) -> dict[str, tuple[int, int]]:
+def rotating_cases(items, kinds, others, every):
     """The cases that rotate -> phase and period, in runs.
 
     A group none of whose cases runs each time has one of them in every run.
@@ -127,12 +127,7 @@ def rotating_cases(
     return cases
 
 
-def plan_run(
-    cases: Mapping[str, tuple[int, int]],
-    record: Mapping[str, int],
-    failed: Collection[str],
-    day: int,
-) -> dict[str, int]:
+def plan_run(cases, record, failed, day):
     """Case -> the runs it has waited after this one; 0: it runs.
 
     Args:
@@ -160,9 +155,7 @@ def _group(item: pytest.Item) -> str:
     return _function(item.nodeid) if mark is not None or slow_case else ""
 
 
-def _robots(
-    items: Collection[pytest.Item], kinds: Collection[str], others: Sequence[str], every: int
-) -> dict[str, tuple[int, int]]:
+def _robots(items, kinds, others, every):
     """Of functions over many robots, the cases of those that stand for no kind.
 
     All cases of a robot have the same phase, so that what they share is made in that run alone.

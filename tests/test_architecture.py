@@ -106,8 +106,11 @@ PLANTED = [
     ("runtime/a.py", "import modeler.robot.read", "runtime may import core"),
     ("validation/a.py", "def f():\n    import sympy", "a.py:2: imports sympy"),
     ("regression/a.py", "from modeler import derivation", "imports modeler.derivation"),
-    ("estimation/a.py", "from modeler.runtime.bind import X",
-     "what others may use is in modeler/runtime/__init__.pyi"),
+    (
+        "estimation/a.py",
+        "from modeler.runtime.bind import X",
+        "what others may use is in modeler/runtime/__init__.pyi",
+    ),
     ("core/a.py", "import lazy_loader", "only a package's __init__.py"),
     ("derivation/a.py", "from modeler.codegen import X", "imports modeler.codegen"),
     ("regression/a.py", "from modeler import estimation", "imports modeler.estimation"),
@@ -129,7 +132,7 @@ PLANTED = [
     ("magic/a.py", "import sympy", "magic is no stage we know"),
     ("__init__.py", "from modeler.robot import Robot", "imports nothing"),
     ("estimation/a.py", "x = 1\n" * (MODULE_LINES + 1), "at most 700"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("file", "text", "words"), PLANTED)

@@ -11,6 +11,7 @@ from benchmarks import __main__ as front, equal
 from benchmarks.all import LINES
 from benchmarks.line import Key, Line, Missing
 from benchmarks.markdown import markdown
+from tests.rotation import with_cases
 
 DOCS = Path(__file__).resolve().parents[1] / "docs" / "explanation" / "benchmarks.md"
 KEYS = [key for line in LINES for key in line.keys]
@@ -58,10 +59,12 @@ def test_every_figure_of_a_report_is_in_its_tables() -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["scalar_vs_pinocchio_gcc.puma560", "batch_vs_pinocchio_gcc.puma560",
-     "dense_w_vs_stream_fill.puma560", "fused_r_vs_lstsq", "instructions.puma560",
-     "fit_seconds_per_1e6", "fit_peak_mb.1e7", "loops_us.evra", "help_seconds"],
-)  # fmt: skip
+    """
+        scalar_vs_pinocchio_gcc.puma560 batch_vs_pinocchio_gcc.puma560
+        dense_w_vs_stream_fill.puma560 fused_r_vs_lstsq instructions.puma560 fit_seconds_per_1e6
+        fit_peak_mb.1e7 loops_us.evra help_seconds
+    """.split(),
+)
 def test_keys_that_others_read_stay(name: str) -> None:
     assert name in {key.name for key in KEYS}
 
@@ -109,16 +112,16 @@ def test_an_unknown_key_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert "no line matches nothing_like_it; see --list" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("after", "same"),
-    [({"x": [1e3, 1e-8], "seconds": 2.0, "name": "Fs2"}, True),
-     ({"x": [1e3, 2e-6], "seconds": 1.0, "name": "Fs2"}, False),
-     ({"x": [1e3 + 2e-6, 0.0], "seconds": 1.0, "name": "Fs2"}, False),
-     ({"x": [1e3], "seconds": 1.0, "name": "Fs2"}, False),
-     ({"x": [1e3, 0.0], "seconds": 1.0, "name": "Fv2"}, False),
-     ({"x": [1e3, 0.0], "seconds": 1.0}, False),
-     ("no answer, status 1", False)],
-)  # fmt: skip
+@with_cases(
+    "after, same",
+    ({"x": [1e3, 1e-8], "seconds": 2.0, "name": "Fs2"}, True),
+    ({"x": [1e3, 2e-6], "seconds": 1.0, "name": "Fs2"}, False),
+    ({"x": [1e3 + 2e-6, 0.0], "seconds": 1.0, "name": "Fs2"}, False),
+    ({"x": [1e3], "seconds": 1.0, "name": "Fs2"}, False),
+    ({"x": [1e3, 0.0], "seconds": 1.0, "name": "Fv2"}, False),
+    ({"x": [1e3, 0.0], "seconds": 1.0}, False),
+    ("no answer, status 1", False),
+)
 def test_answers_of_two_checkouts_are_held_against_each_other(after: object, same: bool) -> None:
     before = {"fit.emps": {"x": [1e3, 0.0], "seconds": 1.0, "name": "Fs2"}}
     assert equal.told(before, {"fit.emps": after}) == (not same)

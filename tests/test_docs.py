@@ -25,7 +25,7 @@ from modeler.regression.motion import Processing
 from modeler.robot.read import _KEYS, parse_robot_text
 from modeler.robot.table import COLUMNS
 from modeler.simulation.physics import HIDDEN
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, with_cases
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = sorted(
@@ -223,27 +223,25 @@ def _labels(picture: Path) -> list[str]:
 # Pages that take ten seconds and more: of their subjects, the README and the tutorial run some.
 LONG = tuple(
     f"docs/{page}.md"
-    for page in (
-        "how-to/servo-arms", "how-to/drive-gains", "how-to/diagnosis", "how-to/learned-law",
-        "explanation/diagnosis", "how-to/free-run", "how-to/excitation", "how-to/motor-side",
-        "explanation/least-squares", "explanation/motion-noise",
-    )
-)  # fmt: skip
+    for page in """
+        how-to/servo-arms how-to/drive-gains how-to/diagnosis how-to/learned-law
+        explanation/diagnosis how-to/free-run how-to/excitation how-to/motor-side
+        explanation/least-squares explanation/motion-noise
+    """.split()
+)
 DEAR = (
     "README.md",
     *(
         f"docs/{page}.md"
-        for page in (
-            "explanation/paper",
-            "how-to/better-urdf", "how-to/closed-forms", "how-to/controller",
-            "how-to/energy-model", "how-to/estimators", "how-to/exporting", "how-to/fleet",
-            "how-to/logs", "how-to/microcontrollers", "how-to/parallel-robots",
-            "how-to/physical-parameters", "how-to/reproduce", "how-to/show",
-            "reference/emitted-c", "reference/python", "robots/evra", "robots/orthoglide",
-            "robots/parallel-examples", "tutorials/table-to-model",
-        )
+        for page in """
+            explanation/paper how-to/better-urdf how-to/closed-forms how-to/controller
+            how-to/energy-model how-to/estimators how-to/exporting how-to/fleet how-to/logs
+            how-to/microcontrollers how-to/parallel-robots how-to/physical-parameters
+            how-to/reproduce how-to/show reference/emitted-c reference/python robots/evra
+            robots/orthoglide robots/parallel-examples tutorials/table-to-model
+        """.split()
     ),
-)  # fmt: skip
+)
 """More than a second each: what they show is computed in tests of every day as well."""
 
 
@@ -275,21 +273,19 @@ def test_what_is_shown_is_renewed():
     assert renewed(["c 1.50"], ["d 1.70"]) == ["c 1.50"]
 
 
-@pytest.mark.parametrize(
-    ("shown", "printed", "missed"),
-    [
-        (["a 1.50", "b"], ["a 1.51", "b"], None),
-        (["a 1.50"], ["a 1.70"], "a 1.50"),
-        (["3 rows"], ["4 rows"], "3 rows"),
-        (["run1.csv"], ["run2.csv"], "run1.csv"),
-        (["at 1.20-1.65 s"], ["at 1.20-2.65 s"], "at 1.20-1.65 s"),
-        (["4.7e-16 left"], ["1.2e-15 left"], None),
-        (["4.7e-16 left"], ["1.2e-5 left"], "4.7e-16 left"),
-        (["a", "...", "c"], ["a", "b", "c"], None),
-        (["...", "c"], ["a", "c", "d"], 'nothing, but "d" was printed'),
-        (["a", "c"], ["a", "b", "c"], "c"),
-        (["b", "..."], ["a", "b", "c"], "b"),
-    ],
+@with_cases(
+    "shown, printed, missed",
+    (["a 1.50", "b"], ["a 1.51", "b"], None),
+    (["a 1.50"], ["a 1.70"], "a 1.50"),
+    (["3 rows"], ["4 rows"], "3 rows"),
+    (["run1.csv"], ["run2.csv"], "run1.csv"),
+    (["at 1.20-1.65 s"], ["at 1.20-2.65 s"], "at 1.20-1.65 s"),
+    (["4.7e-16 left"], ["1.2e-15 left"], None),
+    (["4.7e-16 left"], ["1.2e-5 left"], "4.7e-16 left"),
+    (["a", "...", "c"], ["a", "b", "c"], None),
+    (["...", "c"], ["a", "c", "d"], 'nothing, but "d" was printed'),
+    (["a", "c"], ["a", "b", "c"], "c"),
+    (["b", "..."], ["a", "b", "c"], "b"),
 )
 def test_what_counts_as_shown(shown, printed, missed):
     assert missing(shown, printed) == missed
@@ -331,9 +327,12 @@ def test_every_key_of_a_robot_file_is_described():
 
 def test_the_table_of_effects_on_loops_is_true():
     rows = dict(
-        re.findall(r"^\| (in|not [^|]*|in [^|]*) \| ([a-z_, ]+) \|$",
-                   text_of("docs/how-to/parallel-robots.md"), re.MULTILINE)
-    )  # fmt: skip
+        re.findall(
+            r"^\| (in|not [^|]*|in [^|]*) \| ([a-z_, ]+) \|$",
+            text_of("docs/how-to/parallel-robots.md"),
+            re.MULTILINE,
+        )
+    )
     listed = {key: names.split(", ") for key, names in rows.items()}
     joints = [e for e in CATALOGUE if e.acts in (EffectTarget.JOINT, EffectTarget.MOTOR)]
     joints += [e for e in CATALOGUE if e.acts is EffectTarget.POSITION and not e.obstacle]

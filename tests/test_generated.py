@@ -4,15 +4,10 @@ import pytest
 
 from tests.modules import module
 
-KEPT = (
-    "wrist",
-    "orthoglide-leg-tree",
-    "sr400-tree",
-    "sr400",
-    "orthoglide-2003",
-    "orthoglide-2012",
-    "evra",
-    "five-bar",
+KEPT = tuple(
+    """
+    wrist orthoglide-leg-tree sr400-tree sr400 orthoglide-2003 orthoglide-2012 evra five-bar
+""".split()
 )
 
 

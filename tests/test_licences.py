@@ -13,10 +13,16 @@ PAGE = ROOT / "docs" / "reference" / "licences.md"
 WORKING = ("test", "docs")
 """Extras of which nothing is shipped."""
 FAMILIES = {
-    "LGPL": r"LGPL|Lesser General", "GPL": r"(?<!L)GPL|(?<!Lesser )General Public",
-    "MPL": r"MPL|Mozilla", "Apache": "Apache", "BSD": "BSD", "MIT": r"MIT\b",
-    "PSF": "PSF|Python Software Foundation", "ISC": r"\bISC\b", "any": "any-OSI",
-}  # fmt: skip
+    "LGPL": r"LGPL|Lesser General",
+    "GPL": r"(?<!L)GPL|(?<!Lesser )General Public",
+    "MPL": r"MPL|Mozilla",
+    "Apache": "Apache",
+    "BSD": "BSD",
+    "MIT": r"MIT\b",
+    "PSF": "PSF|Python Software Foundation",
+    "ISC": r"\bISC\b",
+    "any": "any-OSI",
+}
 BOUND = {"LGPL", "GPL", "MPL"}
 """Families that ask for more than a notice."""
 

@@ -19,6 +19,7 @@ from packaging.version import Version
 import modeler
 from modeler.logs.columns import READERS
 from tests.repository import ROOT, kept_files
+from tests.rotation import with_cases
 
 _PIN = re.compile(r"([a-z0-9]+(?:-[a-z0-9]+)*)==([0-9]+(?:\.[0-9]+)*(?:\.post[0-9]+)?)(?: ; (.+))?")
 
@@ -120,9 +121,7 @@ def test_the_citation_is_of_this_version() -> None:
     assert str(cited.get("date-released", "unreleased")) == date
 
 
-def test_every_dependency_is_pinned_to_a_version_it_allows(
-    settings: dict, pins: dict[str, str]
-) -> None:
+def test_every_dependency_is_pinned_to_a_version_it_allows(settings, pins):
     for requirement in requirements(settings):
         name = canonicalize_name(requirement.name)
         assert name in pins, f"constraints.txt has no line for {name}"
@@ -187,17 +186,15 @@ def test_nothing_names_a_registry_or_a_machine() -> None:
     assert not places, "\n".join(["", *places])
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "line",
-    [
-        "see https://py" + "pi.org/x",
-        "pip install --index" + "-url x",
-        'open("' + "/tmp" + '/x")',
-        "pip install mod" + "eler",
-        "pip install -U 'mod" + "eler[gpu]'",
-        "'mod" + "eler[dask]'",
-        "in " + "/work" + "/main",
-    ],
+    "see https://py" + "pi.org/x",
+    "pip install --index" + "-url x",
+    'open("' + "/tmp" + '/x")',
+    "pip install mod" + "eler",
+    "pip install -U 'mod" + "eler[gpu]'",
+    "'mod" + "eler[dask]'",
+    "in " + "/work" + "/main",
 )
 def test_what_must_not_be_named_would_be_found(line: str) -> None:
     assert any(re.search(pattern, line) for pattern in _FORBIDDEN.values())
@@ -222,8 +219,12 @@ def test_the_recipe_for_conda_says_what_the_project_says(settings: dict) -> None
     made_with = {r.name: str(r.specifier) for r in building}
     assert _bounds(needs["host"]) == {"python": project["requires-python"], "pip": "", **made_with}
     groups = project["optional-dependencies"].items()
-    extras = {r.name: str(r.specifier) for name, group in groups if name not in ("test", "docs")
-              for r in map(Requirement, group)}  # fmt: skip
+    extras = {
+        r.name: str(r.specifier)
+        for name, group in groups
+        if name not in ("test", "docs")
+        for r in map(Requirement, group)
+    }
     elsewhere = {"cupy-cuda12x", "mujoco-core"}
     assert _bounds(needs["run_constraints"]) == {
         name: bound for name, bound in extras.items() if name not in elsewhere
@@ -244,8 +245,12 @@ def test_the_dockerfile_is_as_hadolint_wants_it() -> None:
     program = shutil.which("hadolint", path=folders)
     if program is None:
         pytest.skip("NOT CHECKED: hadolint is not installed")
-    result = subprocess.run([program, "--no-color", str(ROOT / "Dockerfile")],
-                            capture_output=True, text=True, check=False)  # fmt: skip
+    result = subprocess.run(
+        [program, "--no-color", str(ROOT / "Dockerfile")],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert (result.returncode, result.stdout) == (0, ""), result.stdout
 
 

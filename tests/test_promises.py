@@ -43,11 +43,11 @@ def _parameters(thing: Any) -> list[str]:
 def _written(names: dict[str, dict[str, list[str]]]) -> str:
     """JSON, a line for each name."""
     parts = [
-        f"{json.dumps(kind)}: {{\n" + ",\n".join(
-            f" {json.dumps(name)}: {json.dumps(each)}" for name, each in inner.items()
-        ) + "\n}"
+        f"{json.dumps(kind)}: {{\n"
+        + ",\n".join(f" {json.dumps(name)}: {json.dumps(each)}" for name, each in inner.items())
+        + "\n}"
         for kind, inner in names.items()
-    ]  # fmt: skip
+    ]
     return "{" + ",\n".join(parts) + "}\n"
 
 
@@ -85,7 +85,8 @@ def test_no_name_that_was_promised_is_gone(regenerate: bool) -> None:
 def test_the_page_tells_the_numbers_of_this_version() -> None:
     text = (ROOT / "docs" / "reference" / "versions.md").read_text(encoding="utf-8")
     for told, number in (
-        ("C interface", C_INTERFACE), ("model format", MODEL_FORMAT),
+        ("C interface", C_INTERFACE),
+        ("model format", MODEL_FORMAT),
         ("manifest format", MANIFEST_FORMAT),
-    ):  # fmt: skip
+    ):
         assert f"{told} {number}" in text, told

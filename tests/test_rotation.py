@@ -33,9 +33,7 @@ def draw_items(kinds: tuple[str, ...] = (), others: tuple[str, ...] = ()) -> lis
     return items
 
 
-def simulate_runs(
-    cases: dict[str, tuple[int, int]], count: int, failed: str = ""
-) -> list[set[str]]:
+def simulate_runs(cases, count, failed=""):
     record: dict[str, int] = {}
     runs, day = [], random.Random().randrange(10**6)
     for _ in range(count):

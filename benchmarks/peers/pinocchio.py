@@ -18,10 +18,19 @@ from modeler.runtime import find_cache_folder
 
 SOURCE = Path(__file__).with_suffix(".cpp")
 FLAGS = (
-    "-std=c++17", "-O3", "-march=native", "-DNDEBUG", "-w", "-fPIC", "-shared",
-    "-fvisibility=hidden", "-DBOOST_MPL_LIMIT_LIST_SIZE=30", "-DBOOST_MPL_LIMIT_VECTOR_SIZE=30",
-    "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS", "-DBOOST_FUSION_INVOKE_MAX_ARITY=12",
-)  # fmt: skip
+    "-std=c++17",
+    "-O3",
+    "-march=native",
+    "-DNDEBUG",
+    "-w",
+    "-fPIC",
+    "-shared",
+    "-fvisibility=hidden",
+    "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
+    "-DBOOST_MPL_LIMIT_VECTOR_SIZE=30",
+    "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",
+    "-DBOOST_FUSION_INVOKE_MAX_ARITY=12",
+)
 COMPILERS = {"gcc": "g++", "clang": "clang++"}
 _AGREES = 1e-9
 _ORDER = [4, 5, 7, 6, 8, 9, 1, 2, 3, 0]  # of [m, mc, Ixx, Ixy, Iyy, Ixz, Iyz, Izz], as ours
@@ -104,8 +113,11 @@ def _placement(joint, numbers) -> np.ndarray:
         name: float(getattr(joint, name).number(numbers))
         for name in ("gamma", "b", "alpha", "d", "theta", "r")
     }
-    about = (_about_z(value["gamma"], value["b"]), _about_x(value["alpha"], value["d"]),
-             _about_z(value["theta"], value["r"]))  # fmt: skip
+    about = (
+        _about_z(value["gamma"], value["b"]),
+        _about_x(value["alpha"], value["d"]),
+        _about_z(value["theta"], value["r"]),
+    )
     return about[0] @ about[1] @ about[2]
 
 

@@ -42,10 +42,12 @@ def names(tmp_path_factory: pytest.TempPathFactory) -> Any:
         emitted = api.generate(derivation)
         yield {
             **{name: getattr(api, name) for name in api.__all__},
-            "robot": robot, "derivation": derivation, "emitted": emitted,
+            "robot": robot,
+            "derivation": derivation,
+            "emitted": emitted,
             "compiled": api.compile_model(emitted),
             "model": api.identify(robot, "mon.parquet", "tue.parquet"),
-        }  # fmt: skip
+        }
 
 
 def examples(module: str, names: dict[str, Any] | None = None) -> list[doctest.DocTest]:
@@ -57,14 +59,22 @@ def test_every_function_has_an_example() -> None:
     there = {example.name for module in MODULES for example in examples(module)}
     lacking = {n for n, f in OFFERED.items() if f"{f.__module__}.{f.__name__}" not in there}
     assert lacking == WITHOUT.keys()
-    methods = [n for n, f in vars(api.Model).items() if not n.startswith("_") and f.__doc__
-               and (inspect.isroutine(f) or isinstance(f, property))]  # fmt: skip
+    methods = [
+        n
+        for n, f in vars(api.Model).items()
+        if not n.startswith("_") and f.__doc__ and (inspect.isroutine(f) or isinstance(f, property))
+    ]
     lacking = {n for n in methods if f"modeler.api.model.Model.{n}" not in there}
     assert lacking <= {"from_identified", "find_logs", "fittedvalues"} and len(methods) > 12
 
 
-ROTATE = ("modeler.api.motion", "modeler.api.checks", "modeler.api.fitting",
-          "modeler.api.fleets", "modeler.api.workflow")  # fmt: skip
+ROTATE = (
+    "modeler.api.motion",
+    "modeler.api.checks",
+    "modeler.api.fitting",
+    "modeler.api.fleets",
+    "modeler.api.workflow",
+)
 MARKS = {
     **dict.fromkeys(("modeler.api.improve", "modeler.api.model"), pytest.mark.slow),  # diagnose
     **dict.fromkeys(ROTATE, pytest.mark.rotating),
@@ -72,10 +82,8 @@ MARKS = {
 
 
 @pytest.mark.parametrize(
-    "module",
-    [pytest.param(name, marks=MARKS.get(name, ()))
-     for name in MODULES if examples(name)],
-)  # fmt: skip
+    "module", [pytest.param(name, marks=MARKS.get(name, ())) for name in MODULES if examples(name)]
+)
 def test_examples_print_what_they_say(module: str, names: dict[str, Any]) -> None:
     for example in examples(module, names):
         said: list[str] = []

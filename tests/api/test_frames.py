@@ -13,6 +13,7 @@ from modeler.api.workflow import convert_to_list
 from modeler.core.errors import DataError
 from tests.modules import compiled
 from tests.rotation import rotating
+from tests.texts import read_pairs
 from tests.when_used import WhenUsed
 
 pandas = WhenUsed("pandas")
@@ -20,10 +21,12 @@ polars = WhenUsed("polars")
 
 ODD = {"time": "t_ms", "q1": "a", "q2": "b", "tau1": "moment_a", "tau2": "moment_b"}
 MAPPING = {
-    "time": "t_ms [ms]", "q1": {"column": "a", "unit": "deg", "sign": -1}, "q2": "b",
+    "time": "t_ms [ms]",
+    "q1": {"column": "a", "unit": "deg", "sign": -1},
+    "q2": "b",
     "tau1": {"column": "moment_a", "unit": "mN m", "sign": -1, "offset": 250.0},
     "tau2": {"column": "moment_b", "scale": 0.5},
-}  # fmt: skip
+}
 
 
 @pytest.fixture(scope="module")
@@ -75,9 +78,7 @@ KINDS: dict[str, Callable[[Any], Any]] = {
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_every_kind_is_the_same_log_and_predicted_in_its_own_kind(
-    kind: str, model: md.Model, run: Path, frame: Any
-) -> None:
+def test_every_kind_is_the_same_log_and_predicted_in_its_own_kind(kind, model, run, frame):
     given = KINDS[kind](frame)
     (file,), (log,) = (
         md.read_logs(compiled("two-link"), convert_to_list(one)) for one in (run, given)
@@ -103,8 +104,10 @@ def test_the_prediction_is_the_models_torque_of_the_motion(model: md.Model, fram
     time = np.linspace(0.0, 4.0, 2001)
     amplitude, pulse = np.array([0.6, 0.9]), np.array([3.1, 4.7])
     angle = pulse * time[:, None]
-    q, qd, qdd = (amplitude * pulse**k * f for k, f in enumerate(
-        (np.sin(angle), np.cos(angle), -np.sin(angle))))  # fmt: skip
+    q, qd, qdd = (
+        amplitude * pulse**k * f
+        for k, f in enumerate((np.sin(angle), np.cos(angle), -np.sin(angle)))
+    )
     predicted = model.predict({"time": time, "q": q, "qd": qd, "qdd": qdd})
     expected = md.compile(model).inverse_dynamics(q, qd, qdd, model.beta)
     sure = np.isfinite(predicted["tau"])
@@ -141,8 +144,7 @@ def test_names_and_units_are_kept_out_again(frame: Any, model: md.Model, tmp_pat
 
 
 def test_the_guess_is_made_of_frames_too(frame: Any, model: md.Model) -> None:
-    names = {"time": "t", "q1": "joint1_pos", "q2": "joint2_pos", "tau1": "joint1_torque",
-             "tau2": "joint2_torque"}  # fmt: skip
+    names = read_pairs("time t q1 joint1_pos q2 joint2_pos tau1 joint1_torque tau2 joint2_torque")
     made = md.identify("two-link", frame.rename(columns=names), mapping="auto")
     np.testing.assert_allclose(made.beta, model.beta, rtol=1e-9)
     assert made.mapping["q<j>"] == "joint{j}_pos"

@@ -12,6 +12,7 @@ import pytest
 
 import modeler as md
 from modeler.core.errors import DataError, ManifestError, RobotError
+from tests.rotation import with_cases
 
 HIDDEN = "load_friction@2"
 
@@ -64,18 +65,14 @@ def test_a_lopsided_interval_stays_lopsided(model: md.Model) -> None:
     assert np.isnan(aside.conf_int()).all() and "not identifiable" in repr(aside)
 
 
-@pytest.mark.parametrize(
-    ("name", "message"),
-    [
-        ("ZZ2", r"fix no value of ZZ2 alone; ZZ2R = ZZ2 \+ .* holds it: ask for .*ZZ2R"),
-        ("M3", r"ZZ1R = .* holds it \(XX2R, ZZ2R, MX2R hold it too\)"),
-        ("XX1", "XX1 has no effect on any torque of demo-arm, so no log shows it"),
-        ("Fs22", r'no such parameter \(did you mean "Fs2'),
-    ],
+@with_cases(
+    "name, message",
+    ("ZZ2", r"fix no value of ZZ2 alone; ZZ2R = ZZ2 \+ .* holds it: ask for .*ZZ2R"),
+    ("M3", r"ZZ1R = .* holds it \(XX2R, ZZ2R, MX2R hold it too\)"),
+    ("XX1", "XX1 has no effect on any torque of demo-arm, so no log shows it"),
+    ("Fs22", r'no such parameter \(did you mean "Fs2'),
 )
-def test_who_asks_for_what_is_not_told_alone_learns_what_holds_it(
-    model: md.Model, name: str, message: str
-) -> None:
+def test_who_asks_for_what_is_not_told_alone_learns_what_holds_it(model, name, message):
     with pytest.raises(DataError, match=message) as error:
         model[name]
     assert str(error.value).startswith(f'model["{name}"]: ') and "\n" not in str(error.value)
@@ -135,9 +132,7 @@ def test_errors_and_what_is_missing(model: md.Model, place: Path, logs: list[str
     assert isinstance(md.reduced_model(better), md.Model)
 
 
-def test_it_is_saved_opened_and_finds_its_logs_beside_it(
-    place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_it_is_saved_opened_and_finds_its_logs_beside_it(place, tmp_path, monkeypatch):
     """Paths are relative to the folder of work, and to that of the model file."""
     shutil.copy(place / "mon.parquet", tmp_path)
     monkeypatch.chdir(tmp_path)

@@ -21,8 +21,11 @@ def test_the_story_on_measured_logs(measured_folder: Path, tmp_path: Path) -> No
     log, held_out = data / "train.parquet", data / "pulses.parquet"
     model = md.identify("emps", [log])
     for name, printed, unit in (
-        ("M1", 95.109, "kg"), ("Fv1", 203.50, "N s/m"), ("Fs1", 20.394, "N"), ("Off1", -3.165, "N"),
-    ):  # fmt: skip
+        ("M1", 95.109, "kg"),
+        ("Fv1", 203.50, "N s/m"),
+        ("Fs1", 20.394, "N"),
+        ("Off1", -3.165, "N"),
+    ):
         found = model[name]
         low, high = found.conf_int(0.95)
         assert found.value == pytest.approx(printed, rel=0.02) and found.unit == unit

@@ -41,8 +41,10 @@ def test_rows_are_those_of_the_logs(runs: list[Any], rows: Any) -> None:
 
 def test_with_speeds_and_accelerations_where_every_log_has_them(runs: list[Any]) -> None:
     truth = [r.truth for r in runs[:2]]
-    logs = [{"time": r.time, "q": r.q, "qd": t.qd, "qdd": t.qdd, "tau": r.tau}
-            for r, t in zip(runs, truth, strict=False)]  # fmt: skip
+    logs = [
+        {"time": r.time, "q": r.q, "qd": t.qd, "qdd": t.qdd, "tau": r.tau}
+        for r, t in zip(runs, truth, strict=False)
+    ]
     assert regressor.read_log_rows("two-link", logs)[0].shape[1] == 8
     del logs[1]["qdd"]
     X, y, _ = regressor.read_log_rows("two-link", logs)
@@ -54,8 +56,9 @@ def test_a_fit_is_that_of_identify(runs: list[Any], rows: Any) -> None:
     X, y, groups = rows
     some = groups < 2
     fitted = regressor.TorqueRegressor("two-link", "robust").fit(X[some], y[some])
-    model = md.identify("two-link", [{"time": r.time, "q": r.q, "tau": r.tau} for r in runs[:2]],
-                        method="robust")  # fmt: skip
+    model = md.identify(
+        "two-link", [{"time": r.time, "q": r.q, "tau": r.tau} for r in runs[:2]], method="robust"
+    )
     np.testing.assert_allclose(fitted.model_.beta, model.beta, rtol=1e-9)
     held = {"time": runs[2].time, "q": runs[2].q}
     expected, found = model.predict(held)["tau"], fitted.predict(X[~some])
@@ -74,7 +77,8 @@ def test_one_group_a_log(rows: Any) -> None:
     out = selection.cross_val_predict(robot, X, y, groups=groups, cv=selection.GroupKFold(3))
     left = y[groups == 1] - out[groups == 1]
     r2 = 1.0 - (left**2).sum(axis=0) / ((y[groups == 1] - y[groups == 1].mean(axis=0)) ** 2).sum(
-        axis=0)  # fmt: skip
+        axis=0
+    )
     assert scores[1] == pytest.approx(r2.mean())
     grid = {"method": ["weighted", "ordinary"]}
     search = selection.GridSearchCV(robot, grid, cv=selection.GroupKFold(3)).fit(
@@ -83,14 +87,15 @@ def test_one_group_a_log(rows: Any) -> None:
     assert search.best_estimator_.model_.fit.method in grid["method"]
 
 
-CHECKS = (
-    "estimator_cloneable", "estimator_repr", "no_attributes_set_in_init",
-    "get_params_invariance", "set_params", "parameters_default_constructible",
-    "do_not_raise_errors_in_init_or_set_params", "mixin_order", "estimators_unfitted",
-    "estimator_tags_renamed", "valid_tag_types", "complex_data", "fit1d", "requires_y_none",
-    "estimator_sparse_matrix", "estimator_sparse_array", "estimators_empty_data_messages",
-    "supervised_y_no_nan",
-)  # fmt: skip
+CHECKS = tuple(
+    """
+    estimator_cloneable estimator_repr no_attributes_set_in_init get_params_invariance set_params
+    parameters_default_constructible do_not_raise_errors_in_init_or_set_params mixin_order
+    estimators_unfitted estimator_tags_renamed valid_tag_types complex_data fit1d requires_y_none
+    estimator_sparse_matrix estimator_sparse_array estimators_empty_data_messages
+    supervised_y_no_nan
+""".split()
+)
 
 
 @pytest.mark.parametrize("name", CHECKS)

@@ -69,9 +69,14 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def run(folder: Path, *words: str) -> tuple[int, str]:
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "MYPYPATH": str(ROOT)}
     ran = subprocess.run(
-        [sys.executable, "-m", *words], cwd=folder, env=environment, capture_output=True,
-        text=True, check=False, timeout=600,
-    )  # fmt: skip
+        [sys.executable, "-m", *words],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=600,
+    )
     return ran.returncode, ran.stdout + ran.stderr
 
 

@@ -32,14 +32,17 @@ NUMBERS = [
     *option(FIT, "--low-speed", "nan", "1.5"),
     *option(FIT, "--payload-mass", "-2"),
     row("number: --rate 0.001", "refused", SIMULATE + " --rate 0.001", "duration", "0.001"),
-]  # fmt: skip
+]
 
 WORDS = [
     row("usage: --json without a file", "refused", "derive wrist --json", "--json"),
     row("usage: unknown derivatives", "refused", FIT + " --derivatives speed", "speed", "log"),
-    row("usage: effects by semicolon", "refused", ("derive", "wrist", "--effects",
-        "viscous;coulomb"),
-        "--effects"),
+    row(
+        "usage: effects by semicolon",
+        "refused",
+        ("derive", "wrist", "--effects", "viscous;coulomb"),
+        "--effects",
+    ),
     row("usage: an effect with shapes", "refused", "derive wrist --effects stribeck", "stribeck"),
     row("usage: add an unknown effect", "refused", "add m.json ghost a.csv --out n.json", "ghost"),
     row("usage: add without log", "refused", "add m.json offset --out n.json", "LOG"),
@@ -48,17 +51,26 @@ WORDS = [
     row("usage: paper unknown", "refused", "reproduce ghost-1999", "ghost-1999", "hanssen-2000"),
     row("usage: a dash of Word", "refused", ("derive", "wrist", "—json", "x.json"), "—json"),
     row("usage: no Unicode in a name", "refused", ("derive", "caf\udce9"), "caf"),
-]  # fmt: skip
+]
 
 WINDOWS = [
     row("window: @:", "works", "compare m.json b.csv@:"),
     row("window: @", "refused", "compare m.json b.csv@", "b.csv@"),
     row("window: @nan:", "refused", "compare m.json b.csv@nan:", "nan"),
-    row("window: two that share none", "works", "fit two-link a.csv@0:4 a.csv@4: --out f.json",
-        check=true_values),
-    row("window: the log by a link", "refused", "fit two-link a.csv l.csv --out f.json", "again",
-        make=lambda w: w.path("l.csv").symlink_to(w.take("a.csv"))),
-]  # fmt: skip
+    row(
+        "window: two that share none",
+        "works",
+        "fit two-link a.csv@0:4 a.csv@4: --out f.json",
+        check=true_values,
+    ),
+    row(
+        "window: the log by a link",
+        "refused",
+        "fit two-link a.csv l.csv --out f.json",
+        "again",
+        make=lambda w: w.path("l.csv").symlink_to(w.take("a.csv")),
+    ),
+]
 
 
 # That no input is written over: tests/cli/test_places.py, of every command and option.

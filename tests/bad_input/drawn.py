@@ -25,20 +25,50 @@ SAMPLES = 400
 LOG = "fit two-link bad{} --out f.json"
 ROBOTS = (*([ARM, OWN_EFFECTS, CRANK] * 6), *map(read_builtin_robot, list_builtin_robots()))
 KINDS = (
-    pa.float32(), pa.int64(), pa.int8(), pa.string(), pa.bool_(), pa.binary(), pa.null(),
-    pa.timestamp("ns"), pa.list_(pa.float64()), pa.dictionary(pa.int32(), pa.string()),
-    pa.decimal128(20, 6), pa.duration("ms"), pa.float16(),
-)  # fmt: skip
+    pa.float32(),
+    pa.int64(),
+    pa.int8(),
+    pa.string(),
+    pa.bool_(),
+    pa.binary(),
+    pa.null(),
+    pa.timestamp("ns"),
+    pa.list_(pa.float64()),
+    pa.dictionary(pa.int32(), pa.string()),
+    pa.decimal128(20, 6),
+    pa.duration("ms"),
+    pa.float16(),
+)
 COMMANDS = (
-    "derive wrist --no-terms", "simulate two-link --duration 2 --rate 100 --seed 1 --out s.csv",
-    "fit two-link a.csv --cutoff 20 --out f.json", "compare m.json b.csv@1:6 --json c.json",
-    "log a.csv --json l.json", "generate two-link --out c", "effects --robot two-link",
-    "convert x.par --out x.toml", "add m.json offset --joint 1 a.csv --out n.json",
-    "diagnose m.json b.csv --json d.json", "robots wrist",
+    "derive wrist --no-terms",
+    "simulate two-link --duration 2 --rate 100 --seed 1 --out s.csv",
+    "fit two-link a.csv --cutoff 20 --out f.json",
+    "compare m.json b.csv@1:6 --json c.json",
+    "log a.csv --json l.json",
+    "generate two-link --out c",
+    "effects --robot two-link",
+    "convert x.par --out x.toml",
+    "add m.json offset --joint 1 a.csv --out n.json",
+    "diagnose m.json b.csv --json d.json",
+    "robots wrist",
     "fit two-link a.csv --map q1=q1:rad --map tau1=tau1 --out f.json",
-)  # fmt: skip
-WORDS = (*NUMBERS, '"', "[", "]", "{", "}", "=", ",", "\n", "#", "q1", "sin(", ")", "**", "pi",
-         "[mdh]", "rows", "\0", "é", "\\", "true", "'", "time", "tau1", ";", "rad")  # fmt: skip
+)
+WORDS = (
+    *NUMBERS,
+    '"',
+    "[",
+    "]",
+    "{",
+    "}",
+    "=",
+    ",",
+    "\n",
+    *"# q1 sin( ) ** pi [mdh] rows".split(),
+    "\0",
+    "é",
+    "\\",
+    *"true ' time tau1 ; rad".split(),
+)
 
 
 AS_BYTES = {"par": "x.par", "urdf": "good.urdf", "mjcf": "good.xml"}
@@ -57,9 +87,10 @@ class Drawer:
     def draw(self) -> Mutant:
         """The next one."""
         kind = self.random.choice(
-            ["toml", "toml", "par", "csv", "csv", "parquet", "urdf", "urdf", "mjcf", "model",
-             "model", "map", "motion", "command", "command"]
-        )  # fmt: skip
+            """
+                toml toml par csv csv parquet urdf urdf mjcf model model map motion command command
+            """.split()
+        )
         return getattr(self, f"_{kind}")() if kind not in AS_BYTES else self._as_bytes(kind)
 
     def _as_bytes(self, kind: str) -> Mutant:
@@ -86,10 +117,13 @@ class Drawer:
         pick = self.random
         kinds = ("put", "put", "take out", "double", "rename", "copy")
         made = [
-            ([pick.randrange(10**6) for _ in range(pick.randint(1, 6))], pick.choice(kinds),
-             pick.choice(VALUES_DRAWN))
+            (
+                [pick.randrange(10**6) for _ in range(pick.randint(1, 6))],
+                pick.choice(kinds),
+                pick.choice(VALUES_DRAWN),
+            )
             for _ in range(pick.randint(1, 2))
-        ]  # fmt: skip
+        ]
         edited_structure(raw, made)
         return " ".join(f"{kind} {str(value)[:20]!r}" for _, kind, value in made)
 
@@ -170,8 +204,13 @@ class Drawer:
         return "model JSON", told, {"bad.json": content}, "compare bad.json b.csv --json c.json"
 
     def _map(self) -> Mutant:
-        good = {"log": {"time": "time [s]", "q<j>": {"column": "q{j}", "unit": "rad", "sign": 1},
-                        "tau<j>": {"column": "tau{n}", "scale": 1.0, "offset": 0.0}}}  # fmt: skip
+        good = {
+            "log": {
+                "time": "time [s]",
+                "q<j>": {"column": "q{j}", "unit": "rad", "sign": 1},
+                "tau<j>": {"column": "tau{n}", "scale": 1.0, "offset": 0.0},
+            }
+        }
         if self.random.random() < 0.5:
             content, told = self._bytes(toml_text(good).encode())
         else:
@@ -187,8 +226,13 @@ class Drawer:
     def _command(self) -> Mutant:
         pick = self.random
         words = pick.choice(COMMANDS).split()
-        odd = ["", "0", "-1", "nan", "1e9", "q9", "--out", "--joint", "no.csv", "a.csv", "é", "-",
-               "1:2:3", "@", "q1=", "wrist", "c_code", "m.json", "x" * 300]  # fmt: skip
+        odd = [
+            "",
+            *"""
+                0 -1 nan 1e9 q9 --out --joint no.csv a.csv é - 1:2:3 @ q1= wrist c_code m.json
+            """.split(),
+            "x" * 300,
+        ]
         for _ in range(pick.randint(1, 2)):
             at, how = (
                 pick.randrange(len(words)),

@@ -11,15 +11,21 @@ OWN_CACHE = {"MODELER_CACHE": "WORKDIR/cache", "CFLAGS": "-O0"}
 
 
 def on(
-    what: str, outcome: Outcome, run: str, *words: str, make: Make | None = None,
-    beside: tuple[str, ...] = ("cache",), file_limit: int | None = None, slow: bool = False,
+    what: str,
+    outcome: Outcome,
+    run: str,
+    *words: str,
+    make: Make | None = None,
+    beside: tuple[str, ...] = ("cache",),
+    file_limit: int | None = None,
+    slow: bool = False,
     **env: str | None,
-) -> Row:  # fmt: skip
+) -> Row:
     """A row in a process of its own, with variables set or taken away."""
     process = Process({**OWN_CACHE, **env}, file_limit, slow=slow)
     return row(
         f"environment: {what}", outcome, run, *words, make=make, process=process, beside=beside
-    )  # fmt: skip
+    )
 
 
 def _true(workdir: Workdir) -> None:
@@ -29,21 +35,32 @@ def _true(workdir: Workdir) -> None:
 
 # Compilers that are missing or fail, caches that are cut: tests/compiled/test_build.py.
 COMPILER = [
-    on("CC does nothing", "refused", COMPARE, "wrote no library", make=_true,
-       CC="WORKDIR/cc.sh"),
+    on("CC does nothing", "refused", COMPARE, "wrote no library", make=_true, CC="WORKDIR/cc.sh"),
     on("CC has an open quote", "refused", COMPARE, "CC", CC='gcc "'),
     on("CC is spaces", "works", COMPARE, CC="   "),
-]  # fmt: skip
+]
 
 CACHE = [
     on("the cache is in Greek", "works", COMPARE, MODELER_CACHE="WORKDIR/κρυφό", beside=("κρυφό",)),
     on("HOME is not set", "works", COMPARE, HOME=None),
-    on("HOME is nowhere, and is needed", "refused", COMPARE, "MODELER_CACHE", HOME="/proc/nowhere",
-       MODELER_CACHE=None, XDG_CACHE_HOME=None),
+    on(
+        "HOME is nowhere, and is needed",
+        "refused",
+        COMPARE,
+        "MODELER_CACHE",
+        HOME="/proc/nowhere",
+        MODELER_CACHE=None,
+        XDG_CACHE_HOME=None,
+    ),
     on("TMPDIR is nowhere", "ends", COMPARE, "", TMPDIR="/nowhere"),
-    on("matplotlib may keep nothing", "ends", COMPARE + " --report page.html", "",
-       MPLCONFIGDIR="/proc/nowhere"),
-]  # fmt: skip
+    on(
+        "matplotlib may keep nothing",
+        "ends",
+        COMPARE + " --report page.html",
+        "",
+        MPLCONFIGDIR="/proc/nowhere",
+    ),
+]
 
 # Streams that are closed, full or short of letters: tests/cli/test_streams.py.
 DISKS = [
@@ -58,12 +75,20 @@ DISKS = [
 ]  # fmt: skip
 
 FOLDERS = [
-    row("folder: the manifest is a folder", "refused", "generate two-link --out c",
+    row(
+        "folder: the manifest is a folder",
+        "refused",
+        "generate two-link --out c",
         "manifest.json|c",
-        make=lambda w: w.path("c/manifest.json/x").parent.mkdir(exist_ok=True)),
-    row("folder: a C file is a link to the user's own", "refused", "generate two-link --out c",
-        "two_link.c", make=lambda w: w.path("c/two_link.c").symlink_to(w.write("mine.c",
-        "int x;"))),
-]  # fmt: skip
+        make=lambda w: w.path("c/manifest.json/x").parent.mkdir(exist_ok=True),
+    ),
+    row(
+        "folder: a C file is a link to the user's own",
+        "refused",
+        "generate two-link --out c",
+        "two_link.c",
+        make=lambda w: w.path("c/two_link.c").symlink_to(w.write("mine.c", "int x;")),
+    ),
+]
 
 ROWS = [*COMPILER, *CACHE, *DISKS, *FOLDERS]

@@ -12,7 +12,7 @@ import sys
 import tempfile
 import traceback
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pyarrow.parquet as pq
@@ -32,9 +32,9 @@ LONGEST = 1200
 AS_IT_IS = "as it is"
 """Value of a variable that a row leaves as the tests have it."""
 
-OUTPUTS = (
-    "--out", "--json", "--report", "--picture", "--coefficients-out", "--robot-out", "--truth-out",
-)  # fmt: skip
+OUTPUTS = tuple(
+    "--out --json --report --picture --coefficients-out --robot-out --truth-out".split()
+)
 
 REMEDY = re.compile(
     r"\b(expected|write|use|choose|give|leave|check|add|remove|declare|did you mean|delete|record"
@@ -155,9 +155,15 @@ def _in_a_process(words: tuple[str, ...], how: Process, workdir: Workdir) -> Res
     if how.anew:
         env["PYTHONPATH"] = str(ROOT)
         done = subprocess.run(
-            [sys.executable, "-m", "modeler", *words], cwd=workdir.work, env=env, check=False,
-            capture_output=True, text=True, errors="replace", timeout=how.seconds,
-        )  # fmt: skip
+            [sys.executable, "-m", "modeler", *words],
+            cwd=workdir.work,
+            env=env,
+            check=False,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=how.seconds,
+        )
     else:
         done = workdir.inputs.forks.run(words, workdir.work, env, how.seconds, how.file_limit)
     broke = ""
@@ -227,9 +233,7 @@ def _shown(name: str) -> str:
     return "".join(c if c.isprintable() else " " if c == "\n" else "?" for c in name)
 
 
-def disturbed(
-    row: Row, result: Result, before: Mapping[str, str], after: Mapping[str, str]
-) -> list[str]:
+def disturbed(row, result, before, after):
     """Inputs that were changed, things left behind, outputs that are not whole."""
     outputs = _outputs(row, result.status == 0)
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from tests.bad_input.fits import true_values, unusable_or_true
-from tests.bad_input.row import Outcome, Row, row
+from tests.bad_input.row import row
 from tests.bad_input.workdir import Table, Workdir
 
 FIT = "fit two-link bad.csv --out m.json --json f.json"
@@ -13,10 +13,7 @@ SAMPLES = 1600
 HALF = SAMPLES // 2
 
 
-def signal(
-    what: str, outcome: Outcome, edit: object, *words: str, run: str = FIT, of: str = "a.csv",
-    theme: str = "signal", alone: bool = False,
-) -> Row:  # fmt: skip
+def signal(what, outcome, edit, *words, run=FIT, of="a.csv", theme="signal", alone=False):
     """A row of a log of two-link with its columns edited in place."""
 
     def make(workdir: Workdir) -> None:
@@ -85,59 +82,99 @@ def _exchanged(*pairs: tuple[str, str]) -> object:
 CLOCK = [
     signal("time in ms", "told", put(time=lambda v: 1000 * v), "second", alone=True),
     signal("since 1970", "works", put(time=lambda v: 1.7e9 + v)),
-    signal("one row of another century", "told",
-           put(time=at(SAMPLES - 1, SAMPLES, lambda v: v + 3e9)), "gap|pieces"),
+    signal(
+        "one row of another century",
+        "told",
+        put(time=at(SAMPLES - 1, SAMPLES, lambda v: v + 3e9)),
+        "gap|pieces",
+    ),
     signal("a second is lost", "told", rows(np.r_[:600, 800:SAMPLES]), "1 gaps"),
-    signal("a quarter of a second", "ends", rows(np.s_[:100]), "usable|sample|row|essential",
-           alone=True),
+    signal(
+        "a quarter of a second",
+        "ends",
+        rows(np.s_[:100]),
+        "usable|sample|row|essential",
+        alone=True,
+    ),
     signal("20 Hz of 200", "ends", rows(np.s_[::10]), "Hz"),
     signal("segments that distinguish two runs", "works", put(segment=np.arange(SAMPLES) // HALF)),
-]  # fmt: skip
+]
 
 POSITION = [
     signal("position that stands still", "ends", put(q2=np.zeros(SAMPLES)), "joint 2|q2"),
     signal("position in degrees", "ends", put(q1=np.degrees, q2=np.degrees), "rad|degrees"),
     signal("sign of joint 1 turned", "told", put(q1=lambda v: -v), "joint 1|q1", "sign"),
     signal("positions exchanged", "told", _exchanged(("q1", "q2")), "exchanged|swapped"),
-    signal("a turn too much from half way", "ends",
-           put(q1=at(HALF, SAMPLES, lambda v: v + 2 * np.pi)), "q1", "jump|turn|wrap|leap"),
-    signal("wrapped in degrees", "ends",
-           put(q1=lambda v: np.degrees(v) % 360), "q1|joint 1", "rad|degrees|jump|turn",
-           alone=True),
+    signal(
+        "a turn too much from half way",
+        "ends",
+        put(q1=at(HALF, SAMPLES, lambda v: v + 2 * np.pi)),
+        "q1",
+        "jump|turn|wrap|leap",
+    ),
+    signal(
+        "wrapped in degrees",
+        "ends",
+        put(q1=lambda v: np.degrees(v) % 360),
+        "q1|joint 1",
+        "rad|degrees|jump|turn",
+        alone=True,
+    ),
     signal("a position inf", "told", put(q1=at(700, 701, np.inf)), "q1", "without a value"),
-]  # fmt: skip
+]
 
 TORQUE = [
-    signal("one torque constant", "told", put(tau2=np.full(SAMPLES, 3.0)), "joint 2",
-           "never changes"),
+    signal(
+        "one torque constant", "told", put(tau2=np.full(SAMPLES, 3.0)), "joint 2", "never changes"
+    ),
     signal("torque in N mm", "told", put(tau1=lambda v: 1000 * v), "joint 1|tau1"),
-    signal("torque of both of the other sign", "told", put(tau1=lambda v: -v, tau2=lambda v: -v),
-           "sign|negative"),
+    signal(
+        "torque of both of the other sign",
+        "told",
+        put(tau1=lambda v: -v, tau2=lambda v: -v),
+        "sign|negative",
+    ),
     signal("torque of one of the other sign", "told", put(tau2=lambda v: -v), "joint 2", "sign"),
     signal("torques exchanged", "told", _exchanged(("tau1", "tau2")), "exchanged|swapped"),
     signal("torque late by 40 ms", "told", put(tau1=late(8), tau2=late(8)), "late|delay|lag"),
     signal("torque of 1e300", "ends", put(tau1=at(700, 701, 1e300)), "tau1|joint 1"),
-    signal("torque clipped", "told", put(tau1=lambda v: np.clip(v, -8, 8)), "joint 1|tau1",
-           "saturat|limit"),
-]  # fmt: skip
+    signal(
+        "torque clipped",
+        "told",
+        put(tau1=lambda v: np.clip(v, -8, 8)),
+        "joint 1|tau1",
+        "saturat|limit",
+    ),
+]
 
 SPEED = [
     signal("speeds as they are", "works", _speeds(0)),
     signal("speed of joint 2 late by 40 ms", "told", _speeds(8), "qd2|joint 2", "late|delay|ms"),
-]  # fmt: skip
+]
 
 HELD = [
-    signal(what, "ends", edit, *words, run=command, of="b.csv", theme=command.split()[0],
-           alone=command == DIAGNOSE and what in ("a spike of 0.5 rad", "torque never changes"))
+    signal(
+        what,
+        "ends",
+        edit,
+        *words,
+        run=command,
+        of="b.csv",
+        theme=command.split()[0],
+        alone=command == DIAGNOSE and what in ("a spike of 0.5 rad", "torque never changes"),
+    )
     for command in (COMPARE, DIAGNOSE)
     for what, edit, words in (
         ("torque of the other sign", put(tau2=lambda v: -v), ("joint 2", "sign")),
         ("torques exchanged", _exchanged(("tau1", "tau2")), ("exchanged|swapped",)),
-        ("a turn too much", put(q1=at(HALF, SAMPLES, lambda v: v + 2 * np.pi)), ("q1",
-            "jump|turn|wrap|leap")),
+        (
+            "a turn too much",
+            put(q1=at(HALF, SAMPLES, lambda v: v + 2 * np.pi)),
+            ("q1", "jump|turn|wrap|leap"),
+        ),
         ("a spike of 0.5 rad", put(q1=at(700, 701, lambda v: v + 0.5)), ("q1", "spike|jump|leap")),
         ("torque never changes", put(tau2=np.full(SAMPLES, 3.0)), ("joint 2",)),
     )
-]  # fmt: skip
+]
 
 ROWS = [*CLOCK, *POSITION, *TORQUE, *SPEED, *HELD]

@@ -37,16 +37,24 @@ def _line(text: str, number: int, new: str) -> str:
 
 CSV = [
     texts("only line ends", "refused", lambda t: "\n\n\n", "bad.csv", "empty"),
-    texts("an open quote", "refused", lambda t: _line(t, 50, '"0.245,0,0,0,0,1,1'), "row 50",
-          "quote"),
+    texts(
+        "an open quote", "refused", lambda t: _line(t, 50, '"0.245,0,0,0,0,1,1'), "row 50", "quote"
+    ),
     texts("a quote opened in the header", "refused", lambda t: '"' + t, "quote", "not closed"),
-    texts("an unnamed column", "works", lambda t: "\n".join(
-        line + "," for line in t.rstrip("\n").split("\n")) + "\n"),
+    texts(
+        "an unnamed column",
+        "works",
+        lambda t: "\n".join(line + "," for line in t.rstrip("\n").split("\n")) + "\n",
+    ),
     texts("line ends of old Macs", "works", lambda t: t.replace("\n", "\r")),
     texts("blank lines between", "works", lambda t: t.replace("\n", "\n\n")),
-    texts("a number of a million digits", "told",
-          lambda t: _line(t, 50, f"0.245,{'9' * 1000000},0,0,0,1,1"), "q1: 1 rows"),
-]  # fmt: skip
+    texts(
+        "a number of a million digits",
+        "told",
+        lambda t: _line(t, 50, f"0.245,{'9' * 1000000},0,0,0,1,1"),
+        "q1: 1 rows",
+    ),
+]
 
 FILES = [
     row("log file: a unit of a huge power", "refused",

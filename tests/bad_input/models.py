@@ -5,17 +5,14 @@ from collections.abc import Callable
 from typing import Any
 
 from modeler.api import compile_model, derive, fit, generate, load, observe
-from tests.bad_input.row import Outcome, Row, row
+from tests.bad_input.row import row
 from tests.bad_input.workdir import Workdir
 
 Raw = dict[str, Any]
 COMPARE = "compare bad.json b.csv --json c.json"
 
 
-def model(
-    what: str, outcome: Outcome, edit: Callable[[Raw], object], *words: str, run: str = COMPARE,
-    of: str = "m.json",
-) -> Row:  # fmt: skip
+def model(what, outcome, edit, *words, run=COMPARE, of="m.json"):
     """A row of a model file that is edited in place, or replaced by the text that `edit` gives."""
 
     def make(workdir: Workdir) -> None:
@@ -57,7 +54,7 @@ DAMAGED = [
     row("model: none", "refused", "compare nowhere.json b.csv", "nowhere.json"),
     row("model: a built-in robot", "told", "compare two-link b.csv", "values that the robot file"),
     row("model: of another robot than the log", "told", "compare e.json d.csv", "unexplained"),
-]  # fmt: skip
+]
 
 EDITED = [
     model("its C, of another robot text", "refused",

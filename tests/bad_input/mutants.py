@@ -2,17 +2,16 @@
 
 import copy
 import json
-from collections.abc import Sequence
 from typing import Any
 
-NUMBERS = ("0", "-1", "1e308", "-1e-308", "nan", "inf", "-inf", "1e400", "9" * 30, "0.1", "2",
-"1_0",
-           "0x7f", "1e17", "3.5")  # fmt: skip
+NUMBERS = (
+    *"0 -1 1e308 -1e-308 nan inf -inf 1e400".split(),
+    "9" * 30,
+    *"0.1 2 1_0 0x7f 1e17 3.5".split(),
+)
 
 
-def edited_bytes(
-    data: bytes, made: list[tuple[str, int, int, int]], tokens: Sequence[str]
-) -> bytes:
+def edited_bytes(data, made, tokens):
     """The bytes after the edits; places count modulo what is there."""
     for kind, place, extent, which in made:
         at = place % (len(data) + 1)
@@ -31,10 +30,30 @@ def edited_bytes(
 
 
 VALUES_DRAWN = (
-    None, True, 0, -1, 3, 10**19, 0.5, 1e308, -0.0, float("nan"), float("inf"), "", "q1", "pi/2",
-    "1/0", "sin(", "all", "L1", "q1 + q2", "x" * 500, "\x00", "../../x", "𝛑", [], {}, [[]],
-    [1, [2, [3]]], {"a": {"b": 1}},
-)  # fmt: skip
+    None,
+    True,
+    0,
+    -1,
+    3,
+    10**19,
+    0.5,
+    1e308,
+    -0.0,
+    float("nan"),
+    float("inf"),
+    "",
+    *"q1 pi/2 1/0 sin( all L1".split(),
+    "q1 + q2",
+    "x" * 500,
+    "\x00",
+    "../../x",
+    "𝛑",
+    [],
+    {},
+    [[]],
+    [1, [2, [3]]],
+    {"a": {"b": 1}},
+)
 """Some of what may stand anywhere in a structure."""
 
 

@@ -98,7 +98,8 @@ FILES = [
 # What tests/robot/ has no message for, or what may take long.
 TABLES = [
     *refusals(
-        "robot", ARM,
+        "robot",
+        ARM,
         [
             ("unclosed quote", 'title = "Arm', 'title = "Arm\nx', "line 2", "toml"),
             ("nested 2000 deep", 'notes = "none"', f"notes = {_NESTED}", "nested"),
@@ -114,7 +115,8 @@ TABLES = [
         ],
     ),
     *refusals(
-        "loops", CRANK,
+        "loops",
+        CRANK,
         [
             ("rows empty", '[["pin", "tip", "3", "position"]]', "[]", "[loops]"),
             ("name twice", '"position"]', '"position"], ["pin", "tip", "3", "position"]', "pin"),
@@ -125,7 +127,7 @@ TABLES = [
         ],
     ),
     *refusals("legs", PLANAR, lists("relations", "platform", "links")),
-]  # fmt: skip
+]
 
 WORKS = [
     derived("table: numbers, names and variables in odd ways", ARM,

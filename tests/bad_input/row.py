@@ -97,11 +97,7 @@ def split(command: str | tuple[str, ...]) -> tuple[str, ...]:
     return tuple(command.split(" ")) if isinstance(command, str) else command
 
 
-def row(
-    id: str, outcome: Outcome, run: str | tuple[str, ...] | Callable[[Workdir], object],
-    *words: str,
-    make: Make | None = None, **more: object,
-) -> Row:  # fmt: skip
+def row(id, outcome, run, *words, make=None, **more):
     """A row; the command as one text."""
     command = run if callable(run) else split(run)
     return dataclasses.replace(Row(id, command, outcome, words, make), **more)  # type: ignore
@@ -110,6 +106,4 @@ def row(
 def missing_words(words: tuple[str, ...], text: str) -> list[str]:
     """Those of `words` that the text lacks."""
     text = re.sub(r"\s+", " ", text).lower()
-    return [
-        word for word in words if not any(piece.lower() in text for piece in word.split("|"))
-    ]  # fmt: skip
+    return [word for word in words if not any(piece.lower() in text for piece in word.split("|"))]

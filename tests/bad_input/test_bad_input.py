@@ -9,7 +9,7 @@ from tests.bad_input.drawn import run_mutants
 from tests.bad_input.judge import disturbed, ending, faults
 from tests.bad_input.row import Result, Row, row as made
 from tests.bad_input.workdir import Inputs, Workdir
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, with_cases
 
 THEMES = (robot_files, log_texts, log_signals, models, command_lines, environment)
 ROWS: tuple[Row, ...] = tuple(row for theme in THEMES for row in theme.ROWS)
@@ -40,26 +40,23 @@ def test_a_bad_input_ends_as_it_must(row, inputs, tmp_path):
     assert not wrong, f"{row.command[:200]}\n" + "\n".join(wrong)
 
 
-@pytest.mark.parametrize(
-    ("count", "seed"),
-    [(25, 90210), *(pytest.param(150, seed, marks=ROTATING) for seed in (7, 8, 9, 10))],
+@with_cases(
+    "count, seed", (25, 90210), *(pytest.param(150, seed, marks=ROTATING) for seed in (7, 8, 9, 10))
 )
 def test_mutants_of_every_format_end_in_one_line(count, seed, inputs):
     assert run_mutants(count, seed, inputs) == []
 
 
-@pytest.mark.parametrize(
-    ("err", "piece"),
-    [
-        ("", "silent"),
-        ("modeler: bad.toml: got 3; expected 4\nand more\n", "unclear: 2 lines"),
-        ("modeler: got 3; expected 4\n", "names no file"),
-        ("modeler: bad.toml: got 3\n", "says not what to do"),
-        ("bad.toml: got 3; expected 4\n", "who speaks"),
-        (f"modeler: bad.toml: got 3; expected {'x' * 2000}\n", "characters"),
-        ("modeler: bad.toml: got 4; expected 5\n", "does not say 'got 3'"),
-    ],
-)  # fmt: skip
+@with_cases(
+    "err, piece",
+    ("", "silent"),
+    ("modeler: bad.toml: got 3; expected 4\nand more\n", "unclear: 2 lines"),
+    ("modeler: got 3; expected 4\n", "names no file"),
+    ("modeler: bad.toml: got 3\n", "says not what to do"),
+    ("bad.toml: got 3; expected 4\n", "who speaks"),
+    (f"modeler: bad.toml: got 3; expected {'x' * 2000}\n", "characters"),
+    ("modeler: bad.toml: got 4; expected 5\n", "does not say 'got 3'"),
+)
 def test_the_judge_sees_an_unclear_line(err, piece, inputs, tmp_path):
     """The judge itself: lines that users must not get."""
     workdir = Workdir(tmp_path, inputs)
@@ -77,6 +74,10 @@ def test_the_judge_sees_what_was_changed_and_left(inputs, tmp_path):
     before = {"work/a.csv": "1", "work/r.toml": "2"}
     after = {"work/a.csv": "3", "work/m.json": "4", "work/x.tmp": "5"}
     found = " ".join(disturbed(bad_row, result, before, after))
-    for piece in ("a.csv was changed", "r.toml was removed", "left behind: work/x.tmp",
-                  "half-written: m.json"):  # fmt: skip
+    for piece in (
+        "a.csv was changed",
+        "r.toml was removed",
+        "left behind: work/x.tmp",
+        "half-written: m.json",
+    ):
         assert piece in found

@@ -5,7 +5,7 @@ import json
 import math
 import os
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -112,9 +112,7 @@ class Workdir:
             if good and not os.path.lexists(self.work / name):
                 self.take(name)
 
-    def log(
-        self, name: str, edit: Callable[[Table], Table | None], of: str = "a.csv", **how: Any
-    ) -> Path:
+    def log(self, name, edit, of="a.csv", **how):
         """A log made from a good one by `edit`, as CSV or Parquet."""
         table = self.inputs.log(of)
         table = edit(table) or table
@@ -125,9 +123,7 @@ class Workdir:
             path.write_text(csv_text(table), encoding="utf-8")
         return path
 
-    def model(
-        self, name: str, edit: Callable[[dict[str, Any]], object], of: str = "m.json"
-    ) -> Path:
+    def model(self, name, edit, of="m.json"):
         """A model file made from a good one by `edit`, in place; or the text that it returns."""
         raw = self.inputs.model(of)
         text = edit(raw)

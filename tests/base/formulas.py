@@ -12,9 +12,15 @@ import numpy as np
 Values = Mapping[str, np.ndarray]
 
 _FUNCTIONS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
-    "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
-    "sign": np.sign, "abs": np.abs, "exp": np.exp, "tanh": np.tanh,
-}  # fmt: skip
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "sqrt": np.sqrt,
+    "sign": np.sign,
+    "abs": np.abs,
+    "exp": np.exp,
+    "tanh": np.tanh,
+}
 _GREEK = r"\\(?:alpha|beta|gamma|delta|theta|phi|psi|omega|epsilon|mu|Omega)(?![A-Za-z])"
 _DOTTED = r"\\d?dot\{(?:\\omega|[a-z])\}"
 _HEAD = rf"[A-Za-z]|\\mathit\{{(?:\w|\\_)+\}}|{_GREEK}|{_DOTTED}"

@@ -2,18 +2,12 @@
 
 import json
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import sympy
 
-from modeler.core.manifest import EmittedModule
-from modeler.derivation.relations import (
-    BaseParameter,
-    BaseParameters,
-    format_base_parameters,
-    serialise_base_parameters,
-)
+from modeler.derivation import relations
 from tests.base.formulas import Values, latex_value, name_of_latex, text_value
 
 Read = Callable[[str, Values], np.ndarray]
@@ -66,15 +60,13 @@ def _sides(line: str) -> tuple[str, str]:
     return name, right or name
 
 
-def printed_forms(
-    robot: str, base: BaseParameters, emitted: EmittedModule
-) -> Iterator[tuple[str, Relations, Read]]:
+def printed_forms(robot, base, emitted):
     """(form, relations as printed, reader) of every form in which they are printed."""
     files = emitted.files
-    raw = json.loads(json.dumps(serialise_base_parameters(robot, base)))
-    yield "text", of_text(format_base_parameters(base)), text_value
-    yield "Markdown", of_markdown(format_base_parameters(base, "markdown")), text_value
-    yield "LaTeX", of_latex(format_base_parameters(base, "latex")), latex_value
+    raw = json.loads(json.dumps(relations.serialise_base_parameters(robot, base)))
+    yield "text", of_text(relations.format_base_parameters(base)), text_value
+    yield "Markdown", of_markdown(relations.format_base_parameters(base, "markdown")), text_value
+    yield "LaTeX", of_latex(relations.format_base_parameters(base, "latex")), latex_value
     yield "JSON", of_terms(raw["base"]), text_value
     yield "manifest", of_terms(json.loads(files["manifest.json"])["base"]), text_value
     yield "header", of_header(files[f"{emitted.spec.prefix}.h"]), text_value
@@ -84,7 +76,7 @@ def printed_forms(
 class Exact:
     """Exact coefficients at random values of the symbols."""
 
-    def __init__(self, parameters: Sequence[BaseParameter], seed: int) -> None:
+    def __init__(self, parameters: Sequence[relations.BaseParameter], seed: int) -> None:
         self.random = np.random.default_rng(seed)
         terms = [term for parameter in parameters for term in parameter.terms]
         symbols = {s for term in terms for s in term.coefficient.free_symbols}
@@ -93,7 +85,7 @@ class Exact:
         every = {term.coefficient for term in terms}
         self.coefficients = {c: float(c.xreplace(at).evalf(_DIGITS)) for c in every}
 
-    def differences(self, parameter: BaseParameter, printed: str, read: Read) -> float:
+    def differences(self, parameter: relations.BaseParameter, printed: str, read: Read) -> float:
         """Largest difference of printed and exact coefficients, relative to 1e-2 at least.
 
         Each parameter has a random value in its own entry and is 0 elsewhere; in the last entry

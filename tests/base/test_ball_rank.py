@@ -6,25 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from modeler.derivation import numeric_rank as balls
+from modeler.derivation import numeric_rank, numeric_rank as balls, relations
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
-from modeler.derivation.numeric_rank import (
-    EnclosureError,
-    Enclosures,
-    draw_sample,
-    evaluate_regressor,
-    expand_states,
-    prove_rank,
-)
 from modeler.derivation.precise import enclose_symbols, load_flint
-from modeler.derivation.relations import (
-    BallRank,
-    ModularRank,
-    SampledRank,
-    format_proof,
-    serialise_base_parameters,
-)
 from modeler.derivation.walks import draw_closed_walk
 from modeler.robot.read import parse_robot_text
 from tests.base.test_hard_tables import CASES, model_of
@@ -39,12 +24,12 @@ SEED = 11
 def test_every_built_in_robot_is_certified(name):
     model, base, _ = module(name)
     found = base.proof.certificate
-    assert isinstance(found, ModularRank if model.closure is None else BallRank)
+    assert isinstance(found, relations.ModularRank if model.closure is None else relations.BallRank)
     assert found.rank == base.rank == base.proof.numeric_rank and base.proof.kind == "exact"
     assert base.proof.agreement < 1e-12  # base torque is standard torque
     last, first = base.proof.gap
     assert first < 1e-9 * last
-    told = serialise_base_parameters(name, base)["certificate"]
+    told = relations.serialise_base_parameters(name, base)["certificate"]
     assert told["exact_rank"] == base.rank
     assert (told["prime"] is None) == (model.closure is not None)
 
@@ -53,32 +38,32 @@ def test_dependent_columns_are_not_certified(name="five-bar"):
     """One column more than the base, which others make up; one without any effect."""
     model, base, _ = module(name)
     kept = [parameter.column for parameter in base.parameters]
-    sample = draw_sample(model, 60, SEED)
-    assert isinstance(prove_rank(model, kept, sample, SEED), BallRank)
+    sample = numeric_rank.draw_sample(model, 60, SEED)
+    assert isinstance(numeric_rank.prove_rank(model, kept, sample, SEED), relations.BallRank)
     grouped = {term.parameter for p in base.parameters for term in p.terms[1:]}
     one = next(i for i, name in enumerate(model.names) if name in grouped)
-    found = prove_rank(model, [*kept, one], sample, SEED)
-    assert isinstance(found, SampledRank) and "hold a singular matrix" in found.why
+    found = numeric_rank.prove_rank(model, [*kept, one], sample, SEED)
+    assert isinstance(found, relations.SampledRank) and "hold a singular matrix" in found.why
     nothing = model.names.index(base.unidentifiable[0])
-    found = prove_rank(model, [*kept, nothing], sample, SEED)
-    assert isinstance(found, SampledRank)
+    found = numeric_rank.prove_rank(model, [*kept, nothing], sample, SEED)
+    assert isinstance(found, relations.SampledRank)
 
 
 def test_postures_off_the_loops_are_not_enclosed():
     model = module("orthoglide-2003").model
     (u,) = draw_closed_walk(model, 1, np.random.default_rng(2)).postures
     with load_flint().ctx.workprec(128):
-        enclosures = Enclosures(model, enclose_symbols(model.robot))
+        enclosures = numeric_rank.Enclosures(model, enclose_symbols(model.robot))
         q = enclosures.enclose_posture(u)
         values = enclosures.equations({f"q[{k}]": x for k, x in enumerate(q)})
         assert all(x.contains(0) and float(x.rad()) < 1e-30 for x in values)
         off = u.copy()
         off[model.closure.solved[0]] += 1e-4
-        with pytest.raises(EnclosureError, match="do not close within"):
+        with pytest.raises(numeric_rank.EnclosureError, match="do not close within"):
             enclosures.enclose_posture(off)
         far = u.copy()
         far[list(model.closure.actuated)] += 2.5  # out of reach
-        with pytest.raises(EnclosureError):
+        with pytest.raises(numeric_rank.EnclosureError):
             enclosures.enclose_posture(far)
 
 
@@ -87,7 +72,7 @@ def test_anyone_can_run_the_certificate_again(name):
     """From the JSON alone, in floating point: the rows that it names have full rank."""
     model, base, _ = module(name)
     told = json.loads(
-        json.dumps(serialise_base_parameters(name, base)["certificate"]["independence"])
+        json.dumps(relations.serialise_base_parameters(name, base)["certificate"]["independence"])
     )
     states = told["states"]
     free = [joint.name for joint in model.robot.free_joints]
@@ -96,7 +81,7 @@ def test_anyone_can_run_the_certificate_again(name):
     u, qd, qdd = (np.array([[s[kind][k] for k in own] for s in states]) for kind, own in kinds)
     closed = model.closure.close_loops(u)
     assert np.max(np.abs(closed - u)) < 1e-4
-    phi = evaluate_regressor(model, expand_states(model, closed, qd, qdd))
+    phi = numeric_rank.evaluate_regressor(model, numeric_rank.expand_states(model, closed, qd, qdd))
     rows = [phi[i, names.index(joint)] for i, joint in told["rows"]]
     W = np.array(rows)[:, [parameter.column for parameter in base.parameters]]
     assert told["kind"] == "balls" and W.shape == (base.rank, base.rank)
@@ -107,8 +92,8 @@ def test_more_bits_are_taken_where_few_do_not_do(monkeypatch):
     model, base, _ = module("five-bar")
     kept = [parameter.column for parameter in base.parameters]
     monkeypatch.setattr(balls, "THRESHOLDS", replace(balls.THRESHOLDS, ball_bits=(12, 128)))
-    found = prove_rank(model, kept, draw_sample(model, 60, SEED), SEED)
-    assert isinstance(found, BallRank) and found.bits == 128
+    found = numeric_rank.prove_rank(model, kept, numeric_rank.draw_sample(model, 60, SEED), SEED)
+    assert isinstance(found, relations.BallRank) and found.bits == 128
 
 
 def test_what_is_sampled_only_says_so(monkeypatch):
@@ -116,9 +101,9 @@ def test_what_is_sampled_only_says_so(monkeypatch):
     model = module("five-bar").model
     base = derive_base_parameters(model)
     assert base.rank == 11 and base.proof.kind == "relations exact, rank sampled"
-    text = " ".join(format_proof(base.proof).split())
+    text = " ".join(relations.format_proof(base.proof).split())
     assert "Independence is not proven" in text and "rank 11 in floating point only" in text
-    told = serialise_base_parameters("five-bar", base)["certificate"]
+    told = relations.serialise_base_parameters("five-bar", base)["certificate"]
     assert told["prime"] is told["exact_rank"] is told["points"] is None
     assert told["independence"]["kind"] == "sampled" and told["independence"]["why"]
 
@@ -127,7 +112,7 @@ def test_a_planar_loop_on_a_body_that_turns_has_no_equation_too_many():
     """The swinging four-bar closes in the two equations of its plane, in the axes of that body."""
     model = derive_model(parse_robot_text(FOUR_BAR, "four-bar"))
     assert len(model.closure.equations) == 2 and model.closure.redundant_count == 0
-    assert isinstance(derive_base_parameters(model).proof.certificate, BallRank)
+    assert isinstance(derive_base_parameters(model).proof.certificate, relations.BallRank)
 
 
 def test_equations_that_follow_for_other_reasons_are_not_taken_for_implied():
@@ -137,7 +122,7 @@ def test_equations_that_follow_for_other_reasons_are_not_taken_for_implied():
     assert np.max(model.closure.compute_openness(walk.postures)) < 1e-12
     base = derive_base_parameters(model)
     found = base.proof.certificate
-    assert base.rank == 7 and isinstance(found, SampledRank)
+    assert base.rank == 7 and isinstance(found, relations.SampledRank)
     assert "3 closure equations seem to follow from the others" in found.why
 
 
@@ -146,5 +131,5 @@ def test_numbers_without_loops_have_a_proven_lower_bound():
     base = derive_base_parameters(model_of(rows, gravity, more))
     found = base.proof.certificate
     assert (base.rank, base.proof.kind) == (rank, kind)
-    assert isinstance(found, BallRank) and found.rank == rank
-    assert "states of few digits" in format_proof(base.proof)
+    assert isinstance(found, relations.BallRank) and found.rank == rank
+    assert "states of few digits" in relations.format_proof(base.proof)

@@ -15,6 +15,7 @@ from modeler.robot.robot import EffectUse
 from tests.base.ranks import seen
 from tests.base.test_hard_tables import model_of
 from tests.modules import module
+from tests.rotation import with_cases
 
 
 def derive(robot):
@@ -81,17 +82,15 @@ def test_gravity_direction_decides(gravity, rank):
     assert derive(with_gravity(read_robot("wrist"), *gravity)).rank == rank
 
 
-@pytest.mark.parametrize(
-    ("name", "effects", "rank"),
-    [
-        ("rx90", (), 36),
-        # Khalil and Dombre 2002, example 9.6: 40 with the rotor inertias of joints 3 to 6.
-        ("rx90", ("rotor_inertia",), 40),
-        ("tx40", ("rotor_inertia",), 40),
-        ("ur10e", (), 36),
-        ("sr400-tree", (), 50),
-        ("panda", ("rotor_inertia", "viscous", "coulomb", "offset"), 43 + 5 + 14 + 7),
-    ],
+@with_cases(
+    "name, effects, rank",
+    ("rx90", (), 36),
+    # Khalil and Dombre 2002, example 9.6: 40 with the rotor inertias of joints 3 to 6.
+    ("rx90", ("rotor_inertia",), 40),
+    ("tx40", ("rotor_inertia",), 40),
+    ("ur10e", (), 36),
+    ("sr400-tree", (), 50),
+    ("panda", ("rotor_inertia", "viscous", "coulomb", "offset"), 43 + 5 + 14 + 7),
 )
 def test_known_numbers(name, effects, rank):
     assert derive(with_effects(read_robot(name), *effects)).rank == rank
@@ -100,21 +99,32 @@ def test_known_numbers(name, effects, rank):
 def test_planar_arm_with_vertical_axes_feels_no_gravity():
     rows = '[["1", 0, 0, "q1", 0], ["2", 0, "L1", "q2", 0]]'
     assert relations(table(rows, symbols="L1 = 0.4")) == [
-        "ZZ1R = ZZ1 + L1**2*M2", "ZZ2 = ZZ2", "MX2 = MX2", "MY2 = MY2",
-    ]  # fmt: skip
-    assert relations(table(rows, '["g", 0, 0]', "L1 = 0.4")) == [
-        "ZZ1R = ZZ1 + L1**2*M2", "MX1R = MX1 + L1*M2", "MY1 = MY1", "ZZ2 = ZZ2", "MX2 = MX2",
+        "ZZ1R = ZZ1 + L1**2*M2",
+        "ZZ2 = ZZ2",
+        "MX2 = MX2",
         "MY2 = MY2",
-    ]  # fmt: skip
+    ]
+    assert relations(table(rows, '["g", 0, 0]', "L1 = 0.4")) == [
+        "ZZ1R = ZZ1 + L1**2*M2",
+        "MX1R = MX1 + L1*M2",
+        "MY1 = MY1",
+        "ZZ2 = ZZ2",
+        "MX2 = MX2",
+        "MY2 = MY2",
+    ]
 
 
 def test_general_twist_of_a_planar_pair():
     """An axis tilted by al against the first: YY2 reaches ZZ1 with sin(al)**2, and so on."""
     pair = table('[["1", 0, 0, "q1", 0], ["2", "al", 0, "q2", 0]]', "[0, 0, 0]", "al = 0.7")
     assert relations(pair) == [
-        "ZZ1R = ZZ1 + sin(al)**2*YY2", "XX2R = XX2 - YY2", "XY2 = XY2", "XZ2 = XZ2", "YZ2 = YZ2",
+        "ZZ1R = ZZ1 + sin(al)**2*YY2",
+        "XX2R = XX2 - YY2",
+        "XY2 = XY2",
+        "XZ2 = XZ2",
+        "YZ2 = YZ2",
         "ZZ2 = ZZ2",
-    ]  # fmt: skip
+    ]
 
 
 def test_lift_axis_tells_mass_from_rotor_only_by_gravity():

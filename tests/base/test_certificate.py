@@ -5,18 +5,13 @@ import dataclasses
 import numpy as np
 import pytest
 
+from modeler.derivation import field
 from modeler.derivation.base_parameters import (
     ProofError,
     certify_relations,
     derive_column_relations,
 )
 from modeler.derivation.derive import derive_model
-from modeler.derivation.field import (
-    build_geometry_field,
-    compute_power,
-    invert_residues,
-    reduce_to_echelon,
-)
 from modeler.derivation.modular import PRIME, compute_modular_rank
 from modeler.robot.read import read_robot
 
@@ -24,7 +19,7 @@ from modeler.robot.read import read_robot
 @pytest.fixture(scope="module")
 def wrist():
     model = derive_model(read_robot("wrist"))
-    K = build_geometry_field(model.geometry)
+    K = field.build_geometry_field(model.geometry)
     return model, K, derive_column_relations(model, model.geometry, K, seed=1)
 
 
@@ -62,13 +57,13 @@ def test_a_missing_relation_is_found(wrist):
 
 def test_modular_arithmetic():
     values = np.array([2, 3, PRIME - 1], dtype=np.int64)
-    np.testing.assert_array_equal(values * invert_residues(values, PRIME) % PRIME, 1)
-    assert compute_power(values, 5, PRIME)[0] == 32
+    np.testing.assert_array_equal(values * field.invert_residues(values, PRIME) % PRIME, 1)
+    assert field.compute_power(values, 5, PRIME)[0] == 32
     rng = np.random.default_rng()
     for rows, inner, columns in ((3, 2, 3), (40, 7, 12), (41, 12, 20), (25, 12, 12), (5, 5, 9)):
         left, right = (rng.integers(0, PRIME, s) for s in ((rows, inner), (inner, columns)))
         matrix = np.array([[sum(map(int, a * b % PRIME)) % PRIME for b in right.T] for a in left])
         matrix[:, rng.random(columns) < 0.2] = 0
         assert compute_modular_rank(matrix) == len(
-            reduce_to_echelon(matrix.copy(), range(columns), PRIME)
+            field.reduce_to_echelon(matrix.copy(), range(columns), PRIME)
         )

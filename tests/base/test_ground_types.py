@@ -30,9 +30,14 @@ print(GROUND_TYPES, json.dumps({n: {key: told[key] for key in keys} for n, told 
 
 def answers(types: str) -> dict:
     done = subprocess.run(
-        [sys.executable, "-c", _RUN], capture_output=True, text=True, timeout=300, cwd=ROOT,
-        env={**os.environ, "SYMPY_GROUND_TYPES": types}, check=True,
-    )  # fmt: skip
+        [sys.executable, "-c", _RUN],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        cwd=ROOT,
+        env={**os.environ, "SYMPY_GROUND_TYPES": types},
+        check=True,
+    )
     used, told = done.stdout.split(" ", 1)
     if used != types:
         pytest.skip(f"NOT CHECKED: sympy takes {used} here, not {types}")

@@ -11,9 +11,7 @@ from tests.base.ranks import seen
 SYMBOLS = "g = 9.81\nL = 0.4\nal = 0.3\nL1 = 0.1\nL2 = 0.2\nL3 = 0.3\n"
 
 
-def model_of(
-    rows: list[dict], gravity: str = '[0, 0, "-g"]', more: str = "", symbols: str = SYMBOLS
-):
+def model_of(rows, gravity='[0, 0, "-g"]', more="", symbols=SYMBOLS):
     columns = ("j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r")
     lines = []
     for row in rows:

@@ -19,6 +19,7 @@ from tests.base.formulas import UnreadableError, latex_value, name_of_latex, tex
 from tests.base.printed_relations import Exact, printed_forms
 from tests.modules import module
 from tests.robots import ROBOTS
+from tests.rotation import with_cases
 
 NEAR = 1e-12
 FORMS = 7
@@ -95,15 +96,13 @@ def test_any_coefficient_is_printed_as_it_is(found, halves):
             assert abs(read(printed, values) - wanted) <= 1e-9 * max(abs(wanted), 1.0), printed
 
 
-@pytest.mark.parametrize(
-    ("coefficient", "text"),
-    [
-        ("1/(D13*sin(gam13))", "MY7/(D13*sin(gam13))"),
-        ("-a - b", "-(a + b)*MY7"),
-        ("a/b + c", "(a/b + c)*MY7"),
-        ("sqrt(3)/2", "sqrt(3)/2*MY7"),
-        (sympy.Float(13.73), "13.73*MY7"),
-    ],
+@with_cases(
+    "coefficient, text",
+    ("1/(D13*sin(gam13))", "MY7/(D13*sin(gam13))"),
+    ("-a - b", "-(a + b)*MY7"),
+    ("a/b + c", "(a/b + c)*MY7"),
+    ("sqrt(3)/2", "sqrt(3)/2*MY7"),
+    (sympy.Float(13.73), "13.73*MY7"),
 )
 def test_what_is_divided_by_stays_together(coefficient, text):
     parameter = BaseParameter("MY7R", 0, (Term(sympy.sympify(coefficient), "MY7"),))

@@ -16,6 +16,7 @@ from modeler.derivation.numeric_rank import draw_random_states, evaluate_regress
 from modeler.robot.read import parse_robot_text
 from tests.base.ranks import seen
 from tests.modules import module
+from tests.rotation import with_cases
 
 TIES = '[relations]\nq4 = "-q3"\nq5 = "-q2 - pi/2"\nq7 = "q3"\n'
 
@@ -79,13 +80,11 @@ ALONG_THE_SLIDE = EQUATION_18.replace("Ia1 + M1 + M2 + M3 + M4 + M7", "Ia1\nM1 +
 NO_LINK_5 = {"links": "[links]\n5 = []\n", "effects": '[effects]\nrotor_inertia = ["1"]\n'}
 
 
-@pytest.mark.parametrize(
-    ("gravity", "printed", "rank"),
-    [
-        ("[0, 'g', 0]", EQUATION_18, 12),
-        ("[0, 0, 'g']", ALONG_THE_SLIDE, 13),
-        ("['g', 'g/3', '-g']", ALONG_THE_SLIDE, 13),
-    ],
+@with_cases(
+    "gravity, printed, rank",
+    ("[0, 'g', 0]", EQUATION_18, 12),
+    ("[0, 0, 'g']", ALONG_THE_SLIDE, 13),
+    ("['g', 'g/3', '-g']", ALONG_THE_SLIDE, 13),
 )
 def test_orthoglide_leg_groups_as_printed(gravity, printed, rank):
     """Guegan, Khalil, Lemoine 2003, eq. (18): every term, and no other relation."""

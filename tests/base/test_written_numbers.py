@@ -4,7 +4,6 @@ import re
 from fractions import Fraction
 
 import numpy as np
-import pytest
 import sympy
 
 from modeler import formulas
@@ -12,6 +11,7 @@ from modeler.codegen.workflow import derive
 from modeler.core.expression import format_decimal
 from modeler.derivation.relations import format_base_parameters, serialise_base_parameters
 from modeler.robot.read import parse_robot_text
+from tests.rotation import with_cases
 
 BIG = re.compile(r"\d{3,}/\d{3,}|frac\{\d{3,}\}")
 
@@ -108,12 +108,16 @@ def test_closed_forms_show_what_was_written():
     assert "9.81" in text and r"\cos{(0.35)}" in latex
 
 
-@pytest.mark.parametrize(
-    ("value", "halves", "text"),
-    [("0.1564", False, "0.1564"), ("12.5", False, None), ("12.5", True, "12.5"),
-     ("1/3", True, None), ("1/1024", False, None), ("1/1024", True, "0.0009765625"),
-     ("1e-9", False, "0.000000001")],
-)  # fmt: skip
+@with_cases(
+    "value, halves, text",
+    ("0.1564", False, "0.1564"),
+    ("12.5", False, None),
+    ("12.5", True, "12.5"),
+    ("1/3", True, None),
+    ("1/1024", False, None),
+    ("1/1024", True, "0.0009765625"),
+    ("1e-9", False, "0.000000001"),
+)
 def test_decimals_are_exact_or_none(value, halves, text):
     assert format_decimal(Fraction(value), halves) == text
 

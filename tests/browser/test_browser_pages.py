@@ -12,7 +12,7 @@ import pytest
 from modeler.cli import main
 from modeler.views.page import write_index
 from tests.browser.chromium import Chromium
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 WIDE, NARROW = (1400, 900), (400, 800)
 OKABE_ITO = {"#000000", "#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7"}
@@ -34,8 +34,10 @@ def page_of(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
         assert main([str(folder / w) if w.endswith(files) else w for w in words.split()]) == 0
 
     for seed, log in ((4, "train.parquet"), (5, "other.parquet")):
-        run(f"simulate demo-arm --hide load_friction@2 --duration 15 --rate 200 --seed {seed} "
-            f"--out {log}")  # fmt: skip
+        run(
+            f"simulate demo-arm --hide load_friction@2 --duration 15 --rate 200 --seed {seed} "
+            f"--out {log}"
+        )
     run("fit demo-arm train.parquet --out m.json")
 
     @cache
@@ -87,14 +89,12 @@ _COLOURS = (  # of each text, and of what it stands on
 )
 
 
-@pytest.mark.parametrize(
-    ("name", "size"),
-    [("compare", NARROW),
-     *rotating(("compare", WIDE), *((n, s) for n in ("diagnose", "add") for s in (NARROW, WIDE)))],
-)  # fmt: skip
-def test_a_page_is_whole_and_works_alone_at_any_width(
-    browser: Chromium, page_of, tmp_path: Path, name: str, size: tuple[int, int]
-) -> None:
+@with_cases(
+    "name, size",
+    ("compare", NARROW),
+    *rotating(("compare", WIDE), *((n, s) for n in ("diagnose", "add") for s in (NARROW, WIDE))),
+)
+def test_a_page_is_whole_and_works_alone_at_any_width(browser, page_of, tmp_path, name, size):
     page = page_of(name)
     result = json.loads(page.with_suffix(".json").read_text())
     text = shown(browser, page, size)
@@ -183,14 +183,15 @@ def check_diagnosis(text: str, diagnosed: dict[str, Any]) -> None:
     assert diagnosed["undetectable"]
     for spot in diagnosed["undetectable"]:
         assert spot["effect"] + (f"@{spot['joint']}:" if spot["joint"] else ":") in text
-    for words in ("model: demo-arm, 25 base parameters, fitted on train.parquet",
-                  "logs explained: train.parquet", "Held-out motion other.parquet"):  # fmt: skip
+    for words in (
+        "model: demo-arm, 25 base parameters, fitted on train.parquet",
+        "logs explained: train.parquet",
+        "Held-out motion other.parquet",
+    ):
         assert words in text
 
 
-def check_waterfall(
-    browser: Chromium, text: str, waterfall: list[dict[str, Any]], numbers: list[dict[str, str]]
-) -> None:
+def check_waterfall(browser, text, waterfall, numbers):
     """It is all there, in the picture, in the table and in the numbers."""
     errors = [100.0 * step["error"] for step in waterfall]
     assert errors[-1] < 0.5 * errors[0]
@@ -199,8 +200,11 @@ def check_waterfall(
     assert "as fitted" in drawn and "@2" in drawn
     held = [float(row["y"]) for row in numbers if row["panel"] == "On held-out logs"]
     assert held == pytest.approx(errors, rel=1e-3)
-    for words in ("as fitted + load_friction @2", "judged on other.parquet",
-                  "modeler add MODEL load_friction --joint 2 LOG... --out MODEL"):  # fmt: skip
+    for words in (
+        "as fitted + load_friction @2",
+        "judged on other.parquet",
+        "modeler add MODEL load_friction --joint 2 LOG... --out MODEL",
+    ):
         assert words in text
 
 
@@ -213,9 +217,7 @@ def test_a_browser_that_cannot_unpack_says_so(browser: Chromium, page_of) -> Non
 
 
 @pytest.mark.parametrize("size", [NARROW, pytest.param(WIDE, marks=pytest.mark.rotating)])
-def test_pages_without_pictures_are_legible(
-    browser: Chromium, tmp_path: Path, size: tuple[int, int]
-) -> None:
+def test_pages_without_pictures_are_legible(browser, tmp_path, size):
     """Formulas, the index and the robot; the verdict and the next command on the first screen."""
     assert main(["show", "wrist", "--out", str(tmp_path / "show.html")]) == 0
     assert main(["derive", "wrist", "--report", str(tmp_path / "derive.html")]) == 0

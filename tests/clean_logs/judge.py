@@ -17,13 +17,30 @@ COMMANDS = (
 
 # What is said of a fault. None of these machines has one.
 FAULTS = (
-    r"clipped", r"\bleap", r"another zero", r"\bzero (?:of|seems|is off)", r"\brings?\b", r"frozen",
-    r"(?:at|reaches) its limit", r"\bsign\b.*(?:wrong|opposite|turned)", r"\bunit\b", r"joined",
-    r"swapped|exchanged", r"is off by a factor", r"clock (?:seems|is wrong)", r"spike|outlier",
-    r"\blate by|comes late|\bdelayed by", r"is it connected", r"damaged", r"not the derivative",
-    r"rows (?:were )?lost", r"never moves?", r"Traceback", r"RuntimeWarning",
+    r"clipped",
+    r"\bleap",
+    r"another zero",
+    r"\bzero (?:of|seems|is off)",
+    r"\brings?\b",
+    r"frozen",
+    r"(?:at|reaches) its limit",
+    r"\bsign\b.*(?:wrong|opposite|turned)",
+    r"\bunit\b",
+    r"joined",
+    r"swapped|exchanged",
+    r"is off by a factor",
+    r"clock (?:seems|is wrong)",
+    r"spike|outlier",
+    r"\blate by|comes late|\bdelayed by",
+    r"is it connected",
+    r"damaged",
+    r"not the derivative",
+    r"rows (?:were )?lost",
+    r"never moves?",
+    r"Traceback",
+    r"RuntimeWarning",
     r"computed from|planned or",
-)  # fmt: skip
+)
 HARMLESS = re.compile(
     r"^(?:channel|parameter|Not detectable)\b|no warnings|doubtful$|where the sign of the speed|"
     r"--keep-damaged uses"
@@ -37,9 +54,11 @@ def print_all(folder: Path) -> list[str]:
     for command in COMMANDS:
         said = io.StringIO()
         with (
-            contextlib.chdir(folder), contextlib.redirect_stdout(said),
-            contextlib.redirect_stderr(said), warnings.catch_warnings(record=True) as warned,
-        ):  # fmt: skip
+            contextlib.chdir(folder),
+            contextlib.redirect_stdout(said),
+            contextlib.redirect_stderr(said),
+            warnings.catch_warnings(record=True) as warned,
+        ):
             warnings.simplefilter("always")
             status = main(command)
         lines += [f"{command[0]}: {line}" for line in said.getvalue().splitlines() if line.strip()]

@@ -73,9 +73,7 @@ def make_machine(seed: int, folder: Path, ways: tuple[str, ...] | None = None) -
     return truth
 
 
-def _draw(
-    rng: np.random.Generator, ways: tuple[str, ...]
-) -> tuple[Plant, list[np.ndarray], np.ndarray]:
+def _draw(rng, ways):
     """An arm, its two motions, the noise of its torques."""
     plant, _ = draw_arm(rng, str(rng.choice(["2R", "3R", "4R", "6R"], p=[0.2, 0.45, 0.2, 0.15])))
     bounds = draw_bounds(rng, plant.joints)
@@ -126,10 +124,7 @@ def _let_it_stick(plant: Plant, rng: np.random.Generator) -> None:
     plant.torque_limit = plant.torque_limit * 2
 
 
-def _recorded(
-    q: np.ndarray, wanted: np.ndarray, torque: np.ndarray, plant: Plant, truth: Truth, choices: int,
-    rng: np.random.Generator,
-) -> dict[str, np.ndarray]:  # fmt: skip
+def _recorded(q, wanted, torque, plant, truth, choices, rng):
     """The columns of a log, as this machine's recorder writes them."""
     own = np.random.default_rng(choices)  # what both logs of a machine share
     n, ticks = q.shape[1], np.arange(len(q))

@@ -4,7 +4,7 @@ import pytest
 
 from tests.clean_logs.judge import find_wrong_lines, print_all
 from tests.clean_logs.machines import PAIRS, Truth, make_machine
-from tests.rotation import ROTATING, rotating
+from tests.rotation import ROTATING, rotating, with_cases
 
 DAILY = [182, pytest.param(107, marks=ROTATING), *rotating(103)]
 """Sticks and held, with two joints and with more; held and single, what once was said to ring."""
@@ -35,15 +35,13 @@ def test_no_line_is_wrong(seed, tmp_path):
         assert any(channel in line and "holds each value" in line for line in lines), channel
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "line",
-    [
-        "log: warning: a.parquet: q4: stays at an end of its range: the position is clipped",
-        "fit: joint 1 rings at 100 Hz, look at the controller's gains",
-        "compare: Joint 3: measured is 0.88 times predicted; the prediction is off by a factor",
-        "log: q1  -  -1.2  1.3  6.28e-07  -",
-        "fit: Traceback (most recent call last):",
-    ],
+    "log: warning: a.parquet: q4: stays at an end of its range: the position is clipped",
+    "fit: joint 1 rings at 100 Hz, look at the controller's gains",
+    "compare: Joint 3: measured is 0.88 times predicted; the prediction is off by a factor",
+    "log: q1  -  -1.2  1.3  6.28e-07  -",
+    "fit: Traceback (most recent call last):",
 )
 def test_the_judge_sees_a_wrong_line(line):
     truth = Truth(("gaps", "held"), steps={"q1": 6.28e-6})

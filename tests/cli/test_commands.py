@@ -7,6 +7,7 @@ import pytest
 
 from modeler.estimation.model_file import compute_checksums
 from tests.cli.running import answer, complaint, refusal
+from tests.rotation import with_cases
 
 
 def test_derive_says_what_a_script_reads(capsys, tmp_path):
@@ -18,8 +19,9 @@ def test_derive_says_what_a_script_reads(capsys, tmp_path):
     assert raw["rank_gap"][0] > 1e6 * raw["rank_gap"][1]
     assert raw["newton_euler_against_lagrange"] < 1e-12
     assert raw["base"][0]["terms"][0] == {
-        "coefficient": "1", "parameter": raw["base"][0]["column_of"],
-    }  # fmt: skip
+        "coefficient": "1",
+        "parameter": raw["base"][0]["column_of"],
+    }
     for entry in raw["base"]:
         assert f"{entry['name']} = " in out
 
@@ -36,14 +38,12 @@ def test_closed_forms_and_columns(capsys, tmp_path):
         assert found[key]["angles"]["2m7"] == "q2 - q7" and found[key]["equation"]
 
 
-@pytest.mark.parametrize(
-    ("options", "shown"),
-    [
-        ("--format latex", "\\begin{align}"),
-        ("--format markdown", "| --- |"),
-        ("--expanded", "S112 =\n"),
-        ("--nonzero", "S112 = -2*L1*MX2*s2"),
-    ],
+@with_cases(
+    "options, shown",
+    ("--format latex", "\\begin{align}"),
+    ("--format markdown", "| --- |"),
+    ("--expanded", "S112 =\n"),
+    ("--nonzero", "S112 = -2*L1*MX2*s2"),
 )
 def test_forms_of_closed_forms(capsys, options, shown):
     assert shown in answer(capsys, "derive", "two-link", "--closed-form", *options.split())
@@ -64,9 +64,15 @@ def test_options_that_would_do_nothing_are_refused(capsys, asked):
 @pytest.mark.rotating("long tests of cli")
 def test_fit_and_compare(capsys, two_link, tmp_path):
     out = answer(
-        capsys, "compare", two_link / "m.json", two_link / "held.parquet",
-        "--json", tmp_path / "c.json", "--report", tmp_path / "page.html",
-    )  # fmt: skip
+        capsys,
+        "compare",
+        two_link / "m.json",
+        two_link / "held.parquet",
+        "--json",
+        tmp_path / "c.json",
+        "--report",
+        tmp_path / "page.html",
+    )
     raw = json.loads((tmp_path / "c.json").read_text())
     assert set(raw["joints"]) == {"1", "2"}
     for joint in raw["joints"].values():
@@ -83,9 +89,15 @@ def test_fit_and_compare(capsys, two_link, tmp_path):
 @pytest.mark.rotating("long tests of cli")
 def test_fit_json_and_windows(capsys, two_link, tmp_path):
     out = answer(
-        capsys, "fit", "two-link", f"{two_link / 'a.parquet'}@0:4", f"{two_link / 'b.parquet'}@2:",
-        "--out", tmp_path / "w.json", "--json", "-", "--method", "ordinary",
-    )  # fmt: skip
+        capsys,
+        "fit",
+        "two-link",
+        f"{two_link / 'a.parquet'}@0:4",
+        f"{two_link / 'b.parquet'}@2:",
+        "--out",
+        tmp_path / "w.json",
+        *"--json - --method ordinary".split(),
+    )
     raw = json.loads(out)
     assert raw["method"] == "ordinary"
     assert raw["relative_error"] < 0.01 and raw["condition_number"] > 1

@@ -11,6 +11,7 @@ import pytest
 from modeler import compare, compare_models, identify
 from modeler.api.model import open_robot
 from modeler.cli import main
+from tests.rotation import with_cases
 
 INERTIAL = """<inertial><origin xyz="{centre} 0 0.01"/><mass value="{mass}"/>
 <inertia ixx="0.01" iyy="0.03" izz="0.03" ixy="0" ixz="0" iyz="0"/></inertial>"""
@@ -27,8 +28,9 @@ def urdf(mass: float = 3.0, friction: str = "") -> str:
         '<limit lower="-2" upper="2" velocity="3" effort="80"/>' + friction + "</joint>"
     )
     joints = [
-        joint.format("shoulder", "base", "upper", 0), joint.format("elbow", "upper", "fore", 0.3),
-    ]  # fmt: skip
+        joint.format("shoulder", "base", "upper", 0),
+        joint.format("elbow", "upper", "fore", 0.3),
+    ]
     return f'<robot name="duo"><link name="base"/>{"".join(bodies + joints)}</robot>'
 
 
@@ -91,15 +93,13 @@ def test_a_file_that_states_the_truth_has_no_error_but_noise(folder, capsys) -> 
     assert "taken as 0" not in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        ("two-link.toml run.csv", "two-link.toml: there is no such file"),
-        ("emps run.csv", "emps: its file states no parameter values; expected [parameters]"),
-        ("arm.urdf run.csv --essential", "--essential: duo is a robot; expected a model"),
-        ("arm.urdf run.csv --run-embedded-c", "--run-embedded-c: duo is a robot; expected"),
-        ("none.json run.csv", "none.json: cannot be read"),
-    ],
+@with_cases(
+    "words, message",
+    ("two-link.toml run.csv", "two-link.toml: there is no such file"),
+    ("emps run.csv", "emps: its file states no parameter values; expected [parameters]"),
+    ("arm.urdf run.csv --essential", "--essential: duo is a robot; expected a model"),
+    ("arm.urdf run.csv --run-embedded-c", "--run-embedded-c: duo is a robot; expected"),
+    ("none.json run.csv", "none.json: cannot be read"),
 )
 def test_what_cannot_be_compared(folder, capsys, words: str, message: str) -> None:
     assert main(["compare", *words.split()]) == 1

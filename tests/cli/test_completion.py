@@ -16,6 +16,7 @@ from modeler.cli import build_parser
 from modeler.cli.completion import complete_words
 from modeler.core.choices import ABOUT, list_builtin_robots
 from modeler.effects.catalogue import CATALOGUE
+from tests.rotation import with_cases
 
 
 @pytest.fixture
@@ -47,8 +48,10 @@ CASES = [
     (["derive", "wrist", "--format=l"], ["--format=latex"]),
     (["derive", "wrist", "--format", "=", "l"], ["latex"]),  # as bash cuts it
     (["derive", "wrist", "x"], []),
-    (["derive", "wrist", "--effects", "viscous,cou"],
-     [f"viscous,{e}" for e in EFFECTS if e.startswith("cou")]),
+    (
+        ["derive", "wrist", "--effects", "viscous,cou"],
+        [f"viscous,{e}" for e in EFFECTS if e.startswith("cou")],
+    ),
     (["fit", "emps", ""], LOGS),
     (["fit", "emps", "run2.csv", "r"], ["run 1.parquet", "run2.csv"]),
     (["fit", "emps", "logs/"], ["logs/one.parquet"]),
@@ -67,7 +70,7 @@ CASES = [
     (["completion", ""], ["bash", "zsh", "fish"]),
     (["fit", "nowhere/"], []),
     (["nonsense", ""], []),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("words", "expected"), CASES, ids=lambda x: " ".join(x)[:40])
@@ -90,22 +93,24 @@ def shell_of(name: str) -> str:
     return place
 
 
-@pytest.mark.parametrize(
-    ("name", "options", "setup"),
-    [
-        ("bash", ["--norc", "-i"], ""),
-        pytest.param(
-            "zsh", ["-f", "-i"], "autoload -Uz compinit; compinit -u; ", marks=pytest.mark.rotating
-        ),
-    ],
+@with_cases(
+    "name, options, setup",
+    ("bash", ["--norc", "-i"], ""),
+    pytest.param(
+        "zsh", ["-f", "-i"], "autoload -Uz compinit; compinit -u; ", marks=pytest.mark.rotating
+    ),
 )
 def test_bash_and_zsh_complete_what_is_typed(folder: Path, name, options, setup) -> None:
     """A Tab after each piece; the line is then turned into one that shows it as a whole."""
     ours, theirs = pty.openpty()
     running = subprocess.Popen(
-        [shell_of(name), *options], stdin=theirs, stdout=theirs, stderr=theirs,
-        start_new_session=True, env=os.environ | {"TERM": "dumb", "PS1": "> "},
-    )  # fmt: skip
+        [shell_of(name), *options],
+        stdin=theirs,
+        stdout=theirs,
+        stderr=theirs,
+        start_new_session=True,
+        env=os.environ | {"TERM": "dumb", "PS1": "> "},
+    )
     os.close(theirs)
 
     def shown(keys: str, wanted: str) -> str:
@@ -132,10 +137,14 @@ def test_bash_and_zsh_complete_what_is_typed(folder: Path, name, options, setup)
 def test_fish_completes(folder: Path) -> None:
     shell = shell_of("fish")
     for line, expected in (
-        ("modeler der", ["derive"]), ("modeler diagnose arm.model.json --holdout ", LOGS),
-    ):  # fmt: skip
+        ("modeler der", ["derive"]),
+        ("modeler diagnose arm.model.json --holdout ", LOGS),
+    ):
         done = subprocess.run(
             [shell, "--no-config", "-c", f"modeler completion fish | source; complete -C '{line}'"],
-            capture_output=True, text=True, timeout=60, check=True,
-        )  # fmt: skip
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=True,
+        )
         assert done.stdout.splitlines() == expected

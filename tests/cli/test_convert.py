@@ -8,6 +8,7 @@ from modeler.core.choices import read_builtin_robot
 from modeler.formats import read_robot
 from tests.cli.running import answer, refusal, run
 from tests.robot.par_files import par_text
+from tests.rotation import with_cases
 
 TWO = par_text({"Ant": "0,1", "d": "0,L", "Theta": "t1,t2", "G": "-9.81,0,0"}, "arm")
 
@@ -46,32 +47,33 @@ def test_a_robot_file_is_written_and_written_over_only_by_force(capsys, par, tmp
     assert "# measured" not in out.read_text()
 
 
-@pytest.mark.parametrize(
-    ("words", "out", "message"),
-    [
-        ("macro.xacro", "new.toml", "xacro macro.xacro > macro.urdf"),
-        ("world.sdf", "new.toml", "is SDF, which is not read; give the URDF"),
-        ("page.xml", "new.toml", "<html> is no URDF"),
-        ("arm.toml", "new.toml", "is a robot file already"),
-        ("ours.urdf", "new.toml", "ours.urdf: line 1"),
-        ("arm.par --tip hand", "new.toml", "--lock and --exact-decimals are for URDF and MJCF"),
-        ("turn.urdf --tip hand", "new.toml", '--tip: "hand": no link of that name'),
-        ("turn.urdf --lock j", "new.toml", 'expected joint=position such as "elbow=0.3"'),
-        ("none.par", "new.toml", "cannot be read"),
-        ("arm.par", "other.par", "got .par, which is another program's robot file"),
-        ("arm.par", "arm.par", "this is the robot file that is read"),
-        ("bad.par", "new.toml", "d: got 3 entries, expected 2"),
-    ],
+@with_cases(
+    "words, out, message",
+    ("macro.xacro", "new.toml", "xacro macro.xacro > macro.urdf"),
+    ("world.sdf", "new.toml", "is SDF, which is not read; give the URDF"),
+    ("page.xml", "new.toml", "<html> is no URDF"),
+    ("arm.toml", "new.toml", "is a robot file already"),
+    ("ours.urdf", "new.toml", "ours.urdf: line 1"),
+    ("arm.par --tip hand", "new.toml", "--lock and --exact-decimals are for URDF and MJCF"),
+    ("turn.urdf --tip hand", "new.toml", '--tip: "hand": no link of that name'),
+    ("turn.urdf --lock j", "new.toml", 'expected joint=position such as "elbow=0.3"'),
+    ("none.par", "new.toml", "cannot be read"),
+    ("arm.par", "other.par", "got .par, which is another program's robot file"),
+    ("arm.par", "arm.par", "this is the robot file that is read"),
+    ("bad.par", "new.toml", "d: got 3 entries, expected 2"),
 )
 def test_what_is_refused(capsys, par, monkeypatch, words, out, message):
     folder = par.parent
     monkeypatch.chdir(folder)
     for name, text in {
-        "macro.xacro": "<robot><xacro:include/></robot>", "page.xml": "<html/>",
-        "world.sdf": f"<!-- {'all rights ' * 9000} --><sdf/>", "arm.toml": "name = 'arm'",
-        "turn.urdf": TURN, "bad.par": TWO.replace("0,L", "0,L,0"),
+        "macro.xacro": "<robot><xacro:include/></robot>",
+        "page.xml": "<html/>",
+        "world.sdf": f"<!-- {'all rights ' * 9000} --><sdf/>",
+        "arm.toml": "name = 'arm'",
+        "turn.urdf": TURN,
+        "bad.par": TWO.replace("0,L", "0,L,0"),
         "ours.urdf": read_builtin_robot("rx90"),
-    }.items():  # fmt: skip
+    }.items():
         (folder / name).write_text(text)
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
     assert message in refusal(capsys, "convert", *words.split(), "--out", out)

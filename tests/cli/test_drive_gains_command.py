@@ -12,6 +12,7 @@ from modeler.core.choices import read_builtin_robot
 from modeler.estimation.model_file import load_model
 from tests.cli.inputs import folder_after
 from tests.cli.running import answer, complaint, run
+from tests.rotation import with_cases
 
 ARM_MAKER = "\n[drive_gains]\n" + "".join(f"{joint} = 1.9\n" for joint in "123")
 
@@ -53,8 +54,17 @@ def test_gains_are_found_and_weigh_a_second_load(arm, capsys):
     for joint, found in zip(model.spec.joints, model.fit.gains, strict=True):
         assert joint.drive_gain == pytest.approx(found.value, rel=1e-6)
     for robot, gain in (("found", 2.0), ("maker", 1.9)):  # the load is 1.2 kg, 0.3 m away
-        words = ("fit", arm / f"{robot}.toml", arm / "bare.parquet", "--out", arm / "weighed.json",
-                 "--payload-log", arm / "second.parquet", "--json", arm / "loads.json")  # fmt: skip
+        words = (
+            "fit",
+            arm / f"{robot}.toml",
+            arm / "bare.parquet",
+            "--out",
+            arm / "weighed.json",
+            "--payload-log",
+            arm / "second.parquet",
+            "--json",
+            arm / "loads.json",
+        )
         assert run(capsys, *words)[0] == 0
         loads = json.loads((arm / "loads.json").read_text())["loads"]
         (moment,) = [entry["value"] for entry in loads if entry["name"] == "MX3_load"]
@@ -81,15 +91,13 @@ def test_a_log_with_a_known_load_is_predicted_with_it(arm, tmp_path, capsys):
     assert {f"joint_{j}_models" for j in "123"} < names
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        ("--payload-link 3", "--payload-link: is of --payload-mass; add that"),
-        ("--payload-centre 0,0,0", "--payload-centre: is of --payload-mass; add that"),
-        ("--payload-mass 1 --payload-centre 1,a", "expected x, y and z in m"),
-        ("--payload-mass 1 --payload-link 99", "payload: no link 99"),
-        ("--payload-mass -1", "expected a mass above 0"),
-    ],
+@with_cases(
+    "words, message",
+    ("--payload-link 3", "--payload-link: is of --payload-mass; add that"),
+    ("--payload-centre 0,0,0", "--payload-centre: is of --payload-mass; add that"),
+    ("--payload-mass 1 --payload-centre 1,a", "expected x, y and z in m"),
+    ("--payload-mass 1 --payload-link 99", "payload: no link 99"),
+    ("--payload-mass -1", "expected a mass above 0"),
 )
 def test_a_load_that_makes_no_sense_is_refused(arm, capsys, words, message):
     model = (arm / "model.json", arm / "second.parquet")
@@ -114,14 +122,12 @@ def test_a_mistake_is_one_line(arm, monkeypatch, capsys, words):
     assert not (arm / "m.json").exists()
 
 
-@pytest.mark.parametrize(
-    ("gain", "words"),
-    [
-        ("7=2", "no joint 7 with a motor; expected one of 1, 2, 3"),
-        ("1", "expected each joint once as JOINT=VALUE, as in 1=12.5"),
-        ("1=0", "got 0; expected torque per drive unit, a number other than 0"),
-        ("1=much", "got much"),
-    ],
+@with_cases(
+    "gain, words",
+    ("7=2", "no joint 7 with a motor; expected one of 1, 2, 3"),
+    ("1", "expected each joint once as JOINT=VALUE, as in 1=12.5"),
+    ("1=0", "got 0; expected torque per drive unit, a number other than 0"),
+    ("1=much", "got much"),
 )
 def test_a_gain_that_cannot_be_simulated(tmp_path, capsys, gain, words):
     out = tmp_path / "a.parquet"

@@ -16,6 +16,7 @@ import pytest
 from modeler.cli import main
 from tests.cli.running import program, refusal
 from tests.repository import ROOT
+from tests.rotation import with_cases
 
 DOCUMENTED = {0, 1, 2, 130}
 
@@ -44,11 +45,13 @@ def test_memory_runs_out_in_a_log(tmp_path: Path) -> None:
     assert done.returncode == 1 and re.fullmatch(r"modeler: x.npy: .*ulimit -v.*\n", done.stderr)
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "error",
-    [MemoryError(), ImportError("x.so: failed to map segment from shared object"),
-     RuntimeError("can't start new thread"), OSError(12, os.strerror(12))],
-)  # fmt: skip
+    MemoryError(),
+    ImportError("x.so: failed to map segment from shared object"),
+    RuntimeError("can't start new thread"),
+    OSError(12, os.strerror(12)),
+)
 def test_memory_runs_out_in_any_words(error: Exception, monkeypatch, capsys) -> None:
     import modeler.cli.program as program
 
@@ -72,10 +75,12 @@ def test_interrupted(tmp_path: Path) -> None:
     """In the midst of the work, which `--verbose` shows."""
     words = ("-v", "simulate", "panda", "--duration", "600", "--out", str(tmp_path / "x.parquet"))
     running = subprocess.Popen(
-        [sys.executable, "-m", "modeler", *words], stderr=subprocess.PIPE, text=True,
+        [sys.executable, "-m", "modeler", *words],
+        stderr=subprocess.PIPE,
+        text=True,
         env=os.environ | {"PYTHONUNBUFFERED": "1"},
         preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),  # a shell's & ignores it
-    )  # fmt: skip
+    )
     assert running.stderr is not None
     for line in running.stderr:
         if line == "modeler: simulating panda ...\n":

@@ -7,6 +7,7 @@ import pytest
 
 from tests.cli.inputs import folder_after
 from tests.cli.running import answer, refusal
+from tests.rotation import with_cases
 
 
 @pytest.fixture(scope="module")
@@ -37,16 +38,14 @@ def test_text_json_and_pictures(capsys, slide: Path) -> None:
     }
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        ("--controller 20", "--controller 20: expected two to four numbers that are not negative"),
-        ("--controller 20,inf", "--controller 20,inf: expected two to four numbers"),
-        ("--controller 0,1", "--controller 0,1: a loop of 0 holds nothing; expected a speed loop"),
-        ("--window 0", "--window: got 0; expected a number above 0"),
-        ("--bound inf", "--bound: got inf; expected a number above 0"),
-        ("--window 9", "--window 9: the longest uninterrupted motion of these logs is "),
-    ],
+@with_cases(
+    "words, message",
+    ("--controller 20", "--controller 20: expected two to four numbers that are not negative"),
+    ("--controller 20,inf", "--controller 20,inf: expected two to four numbers"),
+    ("--controller 0,1", "--controller 0,1: a loop of 0 holds nothing; expected a speed loop"),
+    ("--window 0", "--window: got 0; expected a number above 0"),
+    ("--bound inf", "--bound: got inf; expected a number above 0"),
+    ("--window 9", "--window 9: the longest uninterrupted motion of these logs is "),
 )
 def test_bad_input_is_one_line(capsys, slide: Path, words: str, message: str) -> None:
     run = ("compare", "--free-run", slide / "m.json", slide / "a.parquet")

@@ -123,8 +123,10 @@ def test_the_header_says_what_the_values_are_of(fitted, delay, words):
 
 
 def test_drive_gains_of_the_robot_file_go_along(fitted):
-    joints = tuple(dataclasses.replace(j, drive_gain=k) for j, k in
-                   zip(fitted.spec.joints, (35.0, 12.0), strict=True))  # fmt: skip
+    joints = tuple(
+        dataclasses.replace(j, drive_gain=k)
+        for j, k in zip(fitted.spec.joints, (35.0, 12.0), strict=True)
+    )
     spec = dataclasses.replace(fitted.spec, joints=joints)
     assert build_fitted_spec(dataclasses.replace(fitted, spec=spec)).gains == (35.0, 12.0)
     spec = dataclasses.replace(fitted.spec, joints=(joints[0], fitted.spec.joints[1]))

@@ -19,7 +19,7 @@ from modeler.estimation import stream_logs
 from modeler.validation import compare_long_logs
 from tests.cli.running import complaint, run
 from tests.modules import compiled
-from tests.rotation import slow_rotating
+from tests.rotation import slow_rotating, with_cases
 
 ROWS = 9000
 
@@ -32,9 +32,7 @@ def place(tmp_path_factory):
     time = np.arange(ROWS) * 5e-3
     w = 2.0 * np.pi * random.uniform(0.1, 0.5, (3, 2))
     angle = time[:, None, None] * w + random.uniform(0.0, 6.0, w.shape)
-    q, qd, qdd = (
-        np.sin(angle).sum(1), (w * np.cos(angle)).sum(1), -(w**2 * np.sin(angle)).sum(1)
-    )  # fmt: skip
+    q, qd, qdd = (np.sin(angle).sum(1), (w * np.cos(angle)).sum(1), -(w**2 * np.sin(angle)).sum(1))
     beta = random.uniform(0.5, 2.0, len(model.spec.base))
     tau = model.inverse_dynamics(q, qd, qdd, beta) + random.normal(scale=0.05, size=q.shape)
     q = q + random.normal(scale=1e-5, size=q.shape)
@@ -101,8 +99,9 @@ def test_a_method_that_needs_all_rows_reads_them_or_says_that_they_are_too_many(
     assert "--method weighted or ordinary" in told
 
 
-def test_where_only_the_whole_log_will_do_it_is_read_whole(place, chunked, tmp_path, capsys,
-                                                           monkeypatch):  # fmt: skip
+def test_where_only_the_whole_log_will_do_it_is_read_whole(
+    place, chunked, tmp_path, capsys, monkeypatch
+):
     table = pa.parquet.read_table(place / "run.parquet")
     name = table.column_names[1]
     moved = np.array(table[name])
@@ -119,19 +118,19 @@ def test_where_only_the_whole_log_will_do_it_is_read_whole(place, chunked, tmp_p
 
 def counted(found):
     """What comes of sums over rows: all but shares by functions that were fitted to them."""
-    left = (
-        "structure",
-        "systematic_share",
-        "systematic_sigma",
-        "noise_share",
-        "orders",
-        "spectrum",
-        "bias",
+    left = tuple(
+        "structure systematic_share systematic_sigma noise_share orders spectrum bias".split()
     )
-    joints = {name: {k: v for k, v in joint.items() if k not in left}
-              for name, joint in found["joints"].items()}  # fmt: skip
-    return flat({"joints": joints, **{k: found[k] for k in ("samples", "relative_error", "by_log",
-                                                          "by_unit", "logs")}})  # fmt: skip
+    joints = {
+        name: {k: v for k, v in joint.items() if k not in left}
+        for name, joint in found["joints"].items()
+    }
+    return flat(
+        {
+            "joints": joints,
+            **{k: found[k] for k in ("samples", "relative_error", "by_log", "by_unit", "logs")},
+        }
+    )
 
 
 def flat(found, name=""):
@@ -225,13 +224,11 @@ def test_a_long_log_is_looked_at_in_blocks(place, chunked, tmp_path, monkeypatch
     agree(flat(found), flat(whole), rel=1e-6, least=1e-9)
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "words",
-    [
-        "compare --free-run {model} {log}",
-        "add {model} viscous@1 {log} --out {model}2",
-        "fit two-link {log} --method all",
-    ],
+    "compare --free-run {model} {log}",
+    "add {model} viscous@1 {log} --out {model}2",
+    "fit two-link {log} --method all",
 )
 def test_a_command_that_needs_all_rows_refuses_too_many(words, place, model, capsys, monkeypatch):
     monkeypatch.setattr("modeler.regression.read.MOST_WHOLE", 5000)

@@ -138,9 +138,13 @@ def test_shares_and_titles_in_order(capsys, monkeypatch) -> None:
         with show_activity("second"), show_progress("inside") as tell:  # one voice, not two
             tell(0.5)
     assert lines_of(capsys.readouterr().err) == [
-        ("-", "loading"), ("0.00", "first step"), ("0.25", "first step"), ("0.50", "first step"),
-        ("1.00", "first step"), ("-", "second"),
-    ]  # fmt: skip
+        ("-", "loading"),
+        ("0.00", "first step"),
+        ("0.25", "first step"),
+        ("0.50", "first step"),
+        ("1.00", "first step"),
+        ("-", "second"),
+    ]
 
 
 def test_a_thousand_shares_in_a_moment_are_few_lines(capsys) -> None:

@@ -15,6 +15,7 @@ from modeler.robot.read import read_robot
 from modeler.robot.table import CONVENTIONS as LETTERS
 from tests.cli.running import answer, refusal, run
 from tests.modules import unoptimised
+from tests.rotation import with_cases
 
 
 class Terminal(io.StringIO):
@@ -76,16 +77,14 @@ def test_nothing_is_written_over_without_force(capsys, tmp_path):
             new_robot(tmp_path / "new.toml", **words)
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        ("arm.par", "another program's robot file"),
-        ("arm.json", "got .json"),
-        ("arm.toml --joints RX", "expected R (revolute) or P"),
-        (f"arm.toml --joints {'R' * 21}", "20 at most"),
-        ("arm.toml --template parallel --joints RR", "the template parallel"),
-        ("arm.toml --template parallel --convention craig", "has its own"),
-    ],
+@with_cases(
+    "words, message",
+    ("arm.par", "another program's robot file"),
+    ("arm.json", "got .json"),
+    ("arm.toml --joints RX", "expected R (revolute) or P"),
+    (f"arm.toml --joints {'R' * 21}", "20 at most"),
+    ("arm.toml --template parallel --joints RR", "the template parallel"),
+    ("arm.toml --template parallel --convention craig", "has its own"),
 )
 def test_what_cannot_be_begun_is_told(words, message, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -10,6 +10,7 @@ from modeler import identify, simulate
 from modeler.api.model import open_robot
 from modeler.api.workflow import save
 from modeler.cli import main
+from tests.rotation import with_cases
 
 NAMES = ("rest", "idle", "missing", "pieces")
 
@@ -33,17 +34,22 @@ def folder(tmp_path_factory) -> Path:
     return place
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "commands",
-    [
-        ("log {0}.csv --robot arm.toml", "fit arm.toml {0}.csv --out {0}.json",
-         "compare arm.model.json {0}.csv"),
-        pytest.param(
-            ("diagnose arm.model.json {0}.csv", "excite arm.toml --check {0}.csv",
-             "diagnose arm.model.json train.csv --holdout {0}.csv"), marks=pytest.mark.slow,
+    (
+        "log {0}.csv --robot arm.toml",
+        "fit arm.toml {0}.csv --out {0}.json",
+        "compare arm.model.json {0}.csv",
+    ),
+    pytest.param(
+        (
+            "diagnose arm.model.json {0}.csv",
+            "excite arm.toml --check {0}.csv",
+            "diagnose arm.model.json train.csv --holdout {0}.csv",
         ),
-    ],
-)  # fmt: skip
+        marks=pytest.mark.slow,
+    ),
+)
 @pytest.mark.parametrize("log", NAMES)
 def test_no_command_warns(folder: Path, monkeypatch, capsys, log: str, commands) -> None:
     monkeypatch.chdir(folder)

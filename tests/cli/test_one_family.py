@@ -8,18 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from modeler.cli import build_parser, main, places
-from modeler.cli.parser import (
-    Methods,
-    collect_arguments,
-    collect_command_parsers,
-    parse_words,
-    read_commands,
-    read_families,
-)
+from modeler.cli import build_parser, main, parser, places
 from tests.cli.running import refusal
+from tests.rotation import with_cases
 
-PARSERS = collect_command_parsers(build_parser())
+PARSERS = parser.collect_command_parsers(build_parser())
 
 
 def options() -> Iterator[tuple[str, argparse.Action]]:
@@ -57,32 +50,38 @@ def test_every_page_can_be_opened() -> None:
 
 def test_robot_or_model_first_logs_last() -> None:
     for command, subparser in PARSERS.items():
-        kinds = [action.type for action in collect_arguments(subparser)]
-        first = [i for i, kind in enumerate(kinds)
-                 if kind in (places.RobotFile, places.ModelFile, places.RobotOrModel)]  # fmt: skip
+        kinds = [action.type for action in parser.collect_arguments(subparser)]
+        first = [
+            i
+            for i, kind in enumerate(kinds)
+            if kind in (places.RobotFile, places.ModelFile, places.RobotOrModel)
+        ]
         logs = [i for i, k in enumerate(kinds) if k in (places.LogFile, places.parse_model_or_log)]
         assert first in ([], [0]) and logs in ([], [len(kinds) - 1]), command
 
 
 def test_each_command_has_a_family_and_an_example_that_can_be_typed() -> None:
-    assert list(read_families()) == [
-        "workbench", "describe", "measure", "identify", "understand", "use", "about",
-    ]  # fmt: skip
-    assert list(PARSERS) == list(read_commands())
+    assert (
+        list(parser.read_families())
+        == "workbench describe measure identify understand use about".split()
+    )
+    assert list(PARSERS) == list(parser.read_commands())
     for name, subparser in PARSERS.items():
         lines = re.findall(r"modeler ([^;>]+)", (subparser.epilog or "").replace(')"', ""))
         assert lines and any(line.startswith(f"{name} ") for line in lines), name
         for line in lines:
-            assert parse_words(shlex.split(line.strip()))[0].command, line
+            assert parser.parse_words(shlex.split(line.strip()))[0].command, line
 
 
 def test_the_help_lists_commands_by_family() -> None:
     text = build_parser().format_help()
-    places_of = [text.index(f"\n{family}:\n") for family in read_families()]
+    places_of = [text.index(f"\n{family}:\n") for family in parser.read_families()]
     assert places_of == sorted(places_of)
-    for family, below in zip(read_families(), [*list(read_families())[1:], "options"], strict=True):
+    for family, below in zip(
+        parser.read_families(), [*list(parser.read_families())[1:], "options"], strict=True
+    ):
         part = text.split(f"\n{family}:\n")[1].split(f"\n{below}:\n")[0]
-        assert re.findall(r"^  (\S+)", part, re.M) == read_families()[family]
+        assert re.findall(r"^  (\S+)", part, re.M) == parser.read_families()[family]
 
 
 @pytest.mark.parametrize("words", [[], ["compare"]])
@@ -122,23 +121,21 @@ def test_what_is_misspelt_is_one_line(capsys, line: str) -> None:
 
 
 def test_an_option_may_be_cut_short() -> None:
-    assert parse_words(["--verbos", "derive", "wrist"])[0].robot == "wrist"
+    assert parser.parse_words(["--verbos", "derive", "wrist"])[0].robot == "wrist"
 
 
 def test_methods_are_one_or_several() -> None:
     assert (
-        Methods("all").is_several
-        and Methods("iv,ridge").is_several
-        and not Methods("tls").is_several
+        parser.Methods("all").is_several
+        and parser.Methods("iv,ridge").is_several
+        and not parser.Methods("tls").is_several
     )
 
 
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        ("compare m.json a.csv --window 2", "--window: is of --free-run; add that"),
-        ("compare m.json n.json a.csv --free-run", "--free-run: got n.json too; expected one"),
-    ],
+@with_cases(
+    "line, message",
+    ("compare m.json a.csv --window 2", "--window: is of --free-run; add that"),
+    ("compare m.json n.json a.csv --free-run", "--free-run: got n.json too; expected one"),
 )
 def test_free_run_has_its_own_options(capsys, line: str, message: str) -> None:
     assert message in refusal(capsys, *line.split())
@@ -160,13 +157,11 @@ def opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "opened"
 
 
-@pytest.mark.parametrize(
-    ("line", "page"),
-    [
-        ("derive two-link --open", "modeler-*/derive.html"),
-        ("home five-bar --open --report h.html", "h.html"),
-        ("show two-link --open --picture t.svg", "two-link.html"),
-    ],
+@with_cases(
+    "line, page",
+    ("derive two-link --open", "modeler-*/derive.html"),
+    ("home five-bar --open --report h.html", "h.html"),
+    ("show two-link --open --picture t.svg", "two-link.html"),
 )
 def test_open_shows_the_page_that_was_written(opened: Path, line: str, page: str) -> None:
     assert main([*line.split(), "--json", "-"]) == 0

@@ -9,6 +9,7 @@ import pytest
 from modeler.cli import main
 from modeler.estimation.model_file import load_model, save_model
 from tests.cli.running import answer, complaint, refusal
+from tests.rotation import with_cases
 from tests.terms.physical_cases import SEVEN, data_of, random_letters, system_of
 
 SLIDE = """name = "pr"
@@ -171,24 +172,22 @@ def test_sets_rated_at_the_values_of_the_robot_file(capsys):
     assert "the 44 with the fewest inertias" in out and "the least error first" in out
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        ("wrist --known an,bm", '--known: got "an"'),
-        ("two-link --cad", "--cad, robot two-link: the robot file has no values"),
-        ("two-link --cad none.toml", "none.toml: cannot be read"),
-        ("two-link --known m1=-1,m2", "--known, m1: got the mass -1 kg; expected"),
-        ("two-link --known m1=0,m2", "--known, m1: got the mass 0 kg; expected mo"),
-        ("two-link --known Izz2=-1", "--known, Izz2: got the moment -1 kg m^2; ex"),
-        ("wrist --cad", "--cad: wrist is a robot, with no identified values"),
-        ("two-link --known m1=1,m2", "--known: got values, but two-link is a robo"),
-        ("wrist --known cm --near cm=4", "--near: got values, but wrist is"),
-        ("wrist --near cm=4", "--near: is of --known; add that"),
-        ("two-link --sets -1", "--sets: got -1; expected 1 or more, or --sets al"),
-        ("two-link --sets 0", "--sets: got 0; expected 1 or more, or --sets alon"),
-        ("five-bar --from coefficients", "five-bar: coefficients are written for ser"),
-        ("none.json", "none.json: cannot be read"),
-    ],
+@with_cases(
+    "words, message",
+    ("wrist --known an,bm", '--known: got "an"'),
+    ("two-link --cad", "--cad, robot two-link: the robot file has no values"),
+    ("two-link --cad none.toml", "none.toml: cannot be read"),
+    ("two-link --known m1=-1,m2", "--known, m1: got the mass -1 kg; expected"),
+    ("two-link --known m1=0,m2", "--known, m1: got the mass 0 kg; expected mo"),
+    ("two-link --known Izz2=-1", "--known, Izz2: got the moment -1 kg m^2; ex"),
+    ("wrist --cad", "--cad: wrist is a robot, with no identified values"),
+    ("two-link --known m1=1,m2", "--known: got values, but two-link is a robo"),
+    ("wrist --known cm --near cm=4", "--near: got values, but wrist is"),
+    ("wrist --near cm=4", "--near: is of --known; add that"),
+    ("two-link --sets -1", "--sets: got -1; expected 1 or more, or --sets al"),
+    ("two-link --sets 0", "--sets: got 0; expected 1 or more, or --sets alon"),
+    ("five-bar --from coefficients", "five-bar: coefficients are written for ser"),
+    ("none.json", "none.json: cannot be read"),
 )
 def test_what_is_refused_in_one_line(capsys, tmp_path, monkeypatch, words, message):
     monkeypatch.chdir(tmp_path)

@@ -9,27 +9,18 @@ from pathlib import Path
 
 import pytest
 
-from modeler.cli import build_parser, main
+from modeler.cli import build_parser, main, places
 from modeler.cli.demonstrations import _STORIES
 from modeler.cli.parser import collect_command_parsers
-from modeler.cli.places import (
-    DemoFolder,
-    Input,
-    JsonFile,
-    ModuleFolder,
-    OtherProgramsFile,
-    Output,
-    OutputFolder,
-    Word,
-    parse_model_or_log,
-)
 from modeler.codegen.package import write_emitted
 from modeler.core.choices import locate_builtin_robot
 from tests.cli.running import refusal
 from tests.modules import module
+from tests.rotation import with_cases
 
-FILES = ("arm.toml", "arm.par", "m.json", "a.parquet", "b.csv", "other.parquet", "load.parquet",
-         "names.toml")  # fmt: skip
+FILES = tuple(
+    "arm.toml arm.par m.json a.parquet b.csv other.parquet load.parquet names.toml".split()
+)
 
 READING = {  # what each command reads; outputs come after it
     "derive": "derive arm.toml",
@@ -88,20 +79,28 @@ def test_every_argument_says_what_it_is() -> None:
     """A new one cannot be forgotten: a bare text might be the name of a file."""
     for command, action in actions():
         plain = (
-            action.nargs == 0 or action.choices or action.type in (int, float, parse_model_or_log)
+            action.nargs == 0
+            or action.choices
+            or action.type in (int, float, places.parse_model_or_log)
         )
-        assert plain or is_a(action, Word, Input, Output, OutputFolder), (command, action.dest)
-    assert not [c for c, a in actions() if a.dest == "json" and a.type is not JsonFile]
+        assert plain or is_a(
+            action, places.Word, places.Input, places.Output, places.OutputFolder
+        ), (command, action.dest)
+    assert not [c for c, a in actions() if a.dest == "json" and a.type is not places.JsonFile]
     assert {command for command, _ in actions()} == set(READING)
 
 
 def cases() -> Iterator[tuple[str, str, str, str]]:
     """Command, output, input that it is given, and what the refusal calls that."""
     read = "the robot file that is read"
-    whats = {"arm.toml": read, "arm.par": read, "m.json": "the model that is read",
-             "names.toml": "the mapping that is read"}  # fmt: skip
+    whats = {
+        "arm.toml": read,
+        "arm.par": read,
+        "m.json": "the model that is read",
+        "names.toml": "the mapping that is read",
+    }
     for command, action in actions():
-        if is_a(action, Output):
+        if is_a(action, places.Output):
             words = READING[command].replace("@", " ").split()
             for name in FILES:
                 if name in words:
@@ -132,7 +131,9 @@ def test_an_input_is_never_an_output(workdir, capsys, command, option, name, wha
 
 @pytest.mark.parametrize("command", ["fit", "compare", "derive"])
 def test_two_outputs_are_two_files(workdir, capsys, command) -> None:
-    outputs = [action for name, action in actions() if name == command and is_a(action, Output)]
+    outputs = [
+        action for name, action in actions() if name == command and is_a(action, places.Output)
+    ]
     first, second = (action.option_strings[0] for action in outputs[:2])
     Path("alias").symlink_to("same.html")  # which is not there yet
     words = READING[command].split()
@@ -185,14 +186,12 @@ def test_a_dash_is_for_json(workdir, capsys) -> None:
     assert "--report -: only --json takes - for stdout; expected the name of a file" in err
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        ("generate wrist --out folder --json folder/manifest.json", "manifest.json in it is what"),
-        ("generate wrist --out folder --json alias", "Makefile in it is what --json writes"),
-        ("demo --out folder --json folder/demo-arm/model.json", "demo-arm/model.json in it is"),
-        ("compare m.json folder/overview.csv --picture folder", "overview.csv in it is a log"),
-    ],
+@with_cases(
+    "words, message",
+    ("generate wrist --out folder --json folder/manifest.json", "manifest.json in it is what"),
+    ("generate wrist --out folder --json alias", "Makefile in it is what --json writes"),
+    ("demo --out folder --json folder/demo-arm/model.json", "demo-arm/model.json in it is"),
+    ("compare m.json folder/overview.csv --picture folder", "overview.csv in it is a log"),
 )
 def test_a_folder_keeps_its_names(workdir, capsys, words, message) -> None:
     Path("folder").mkdir()
@@ -212,8 +211,8 @@ def test_folders_declare_what_they_get(tmp_path: Path) -> None:
         files = [p.relative_to(folder).as_posix() for p in folder.rglob("*") if p.is_file()]
         assert len(files) > 10
         for file in files:
-            assert any(fnmatchcase(file, pattern) for pattern in ModuleFolder.writes), file
-    assert {f"{story.robot}/*" for story in _STORIES} == set(DemoFolder.writes)
+            assert any(fnmatchcase(file, pattern) for pattern in places.ModuleFolder.writes), file
+    assert {f"{story.robot}/*" for story in _STORIES} == set(places.DemoFolder.writes)
 
 
 @pytest.mark.parametrize(("ending", "there_is_one"), [(".PAR", False), (".mjcf", True)])
@@ -226,7 +225,9 @@ def test_nothing_is_written_into_another_programs_robot_file(
     if there_is_one:
         place.write_text("theirs")
     for command, action in actions():
-        if not is_a(action, Output) or action.type is OtherProgramsFile:  # what `export` writes
+        if (
+            not is_a(action, places.Output) or action.type is places.OtherProgramsFile
+        ):  # what `export` writes
             continue
         words = READING[command].split()
         option = action.option_strings[0] if action.option_strings else command

@@ -16,6 +16,7 @@ from modeler.core.manifest import FORMAT as MANIFEST_FORMAT
 from modeler.estimation.model_file import FORMAT as MODEL_FORMAT
 from tests.json_schemas import check_schema, faults
 from tests.modules import module
+from tests.texts import read_pairs
 
 OTHERS = {"pictures": 1, "manifest": MANIFEST_FORMAT, "model": MODEL_FORMAT}
 
@@ -23,33 +24,49 @@ OTHERS = {"pictures": 1, "manifest": MANIFEST_FORMAT, "model": MODEL_FORMAT}
 # for the entries of an object whose names are the user's.
 EFFECT_AT = {"effect": 0, "joint": 0}
 FIT = {
-    "robot": 0, "method": 0, "samples": 0, "condition_number": 0, "relative_error": 0,
+    "robot": 0,
+    "method": 0,
+    "samples": 0,
+    "condition_number": 0,
+    "relative_error": 0,
     "joints": {"": {"relative_error": 0, "rms": 0}},
-    "parameters": [{"name": 0, "value": 0, "sigma": 0, "relative_sigma_percent": 0,
-                    "essential": 0}],
-    "valid": 0, "warnings": 0, "bands": {"noise": 0, "reasons": 0},
-}  # fmt: skip
+    "parameters": [
+        {"name": 0, "value": 0, "sigma": 0, "relative_sigma_percent": 0, "essential": 0}
+    ],
+    "valid": 0,
+    "warnings": 0,
+    "bands": {"noise": 0, "reasons": 0},
+}
 CONTRACT = {
     "derive": {
-        "robot": 0, "standard": 0,
+        "robot": 0,
+        "standard": 0,
         "base": [{"name": 0, "column_of": 0, "terms": [{"coefficient": 0, "parameter": 0}]}],
-        "unidentifiable": 0, "rank": 0,
+        "unidentifiable": 0,
+        "rank": 0,
         "counts": {"inertial": 0, "rotor_inertia": 0, "friction": 0, "offset": 0},
-        "rank_gap": 0, "proof": 0,
+        "rank_gap": 0,
+        "proof": 0,
     },
     "fit": FIT,
     "compare": {
-        "samples": 0, "relative_error": 0,
+        "samples": 0,
+        "relative_error": 0,
         "joints": {"": {"relative_error": 0, "rms": 0, "max": 0, "r2": 0}},
     },
     "diagnose": {
         "verdict": 0,
-        "effects": [{"effect": 0, "joint": 0, "status": 0, "gain": 0, "error_before": 0,
-                     "error_after": 0, "parameters": 0, "ties": 0, "evidence": 0, "splits": 0}],
-        "undetectable": [EFFECT_AT], "joints": 0,
+        "effects": [
+            read_pairs("""
+                effect 0 joint 0 status 0 gain 0 error_before 0 error_after 0 parameters 0 ties 0
+                evidence 0 splits 0
+            """)
+        ],
+        "undetectable": [EFFECT_AT],
+        "joints": 0,
     },
     "add": {**FIT, "waterfall": [{"effect": 0, "joint": 0, "error": 0}]},
-}  # fmt: skip
+}
 
 
 @pytest.fixture(scope="module")

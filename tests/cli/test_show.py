@@ -17,6 +17,7 @@ from modeler.views.robot_drawing import render_picture
 from modeler.views.robot_skeleton import build_skeleton, find_home_posture
 from tests.cli.running import answer, refusal
 from tests.robots import ROBOTS
+from tests.rotation import with_cases
 
 
 @pytest.fixture
@@ -137,14 +138,12 @@ def test_loops_that_do_not_close_are_shown_and_told(workdir, capsys) -> None:
     assert "#e00000" in (workdir / "b.svg").read_text()  # the gap, in red
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        ("wrist --picture w.jpg", "w.jpg: got .jpg; expected a name that ends in .png, .svg, .pdf"),
-        ("wrost", '"wrost" is neither a file nor a built-in robot'),
-        ("wrist --out w.html --picture w.html", "--picture w.html: --out writes this file too"),
-        ("wrist --out a/b", "a/b: cannot be written"),
-    ],
+@with_cases(
+    "words, message",
+    ("wrist --picture w.jpg", "w.jpg: got .jpg; expected a name that ends in .png, .svg, .pdf"),
+    ("wrost", '"wrost" is neither a file nor a built-in robot'),
+    ("wrist --out w.html --picture w.html", "--picture w.html: --out writes this file too"),
+    ("wrist --out a/b", "a/b: cannot be written"),
 )
 def test_what_is_refused_is_one_line_and_leaves_nothing(workdir, capsys, words, message) -> None:
     (workdir / "a").write_text("a file")

@@ -13,10 +13,11 @@ from modeler.effects.catalogue import CATALOGUE
 from modeler.simulation import HIDDEN
 from tests.rotation import rotating
 
-LONG = {
-    "sympy", "numpy", "scipy", "casadi", "pyarrow", "matplotlib", "plotly", "rich", "jinja2",
-    "cffi", "threadpoolctl", "flint",
-}  # fmt: skip
+LONG = set(
+    """
+    sympy numpy scipy casadi pyarrow matplotlib plotly rich jinja2 cffi threadpoolctl flint
+""".split()
+)
 
 # Runs commands one after the other in one process: what one of them loads, the next ones have.
 _TRACED = """
@@ -50,10 +51,14 @@ SHORT = [
     *(((word,), 0) for word in ("--help", "--version", "robots", "effects")),
     *((words.split(), 0) for words in ("effects load_friction", "robots wrist")),
     *(((name, "--help"), 0) for name in read_commands()),
-    ((), 2), (("dance",), 2), (("fit",), 2), (("fit", "emps", "--method", "x"), 2),
-    (("derive", "arm", "--no-such-option"), 2), (("demo", "--duration", "long"), 2),
+    ((), 2),
+    (("dance",), 2),
+    (("fit",), 2),
+    (("fit", "emps", "--method", "x"), 2),
+    (("derive", "arm", "--no-such-option"), 2),
+    (("demo", "--duration", "long"), 2),
     (("derive", "wrist", "--json", "."), 1),
-]  # fmt: skip
+]
 
 
 def test_what_answers_at_once_loads_nothing_long() -> None:

@@ -11,7 +11,7 @@ import pytest
 from modeler.cli import main
 from tests.cli.running import program
 from tests.forked import without_coverage
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 ARM = """\
 name = "arm"
@@ -38,16 +38,17 @@ sys.exit(main())
     ("words", "buffering", "room"),
     [("--help", "", "3"), ("robots", "1", "0"), *rotating(("robots --json -", "", "3"))],
 )
-def test_a_full_disk_under_stdout_is_one_line(
-    tmp_path: Path, words: str, buffering: str, room: str
-) -> None:
+def test_a_full_disk_under_stdout_is_one_line(tmp_path, words, buffering, room):
     with (tmp_path / "out.txt").open("w") as out:
         done = subprocess.run(
-            [sys.executable, "-c", _LIMITED, room, *words.split()], stdout=out, timeout=60,
-            stderr=subprocess.PIPE, text=True,
+            [sys.executable, "-c", _LIMITED, room, *words.split()],
+            stdout=out,
+            timeout=60,
+            stderr=subprocess.PIPE,
+            text=True,
             env=without_coverage()
             | {"PYTHONUNBUFFERED": buffering, "PYTHONDONTWRITEBYTECODE": "1"},
-        )  # fmt: skip
+        )
     assert done.returncode == 1
     assert done.stderr.startswith("modeler: stdout: cannot be written (File too large); choose")
     assert done.stderr.count("\n") == 1
@@ -71,15 +72,13 @@ def test_what_is_only_told_at_the_end_is_told(monkeypatch, capsys) -> None:
     )
 
 
-@pytest.mark.parametrize(
-    ("words", "status", "shown"),
-    [
-        ("robots >&-", 0, ""),
-        ("robots no-such-robot >&-", 1, "modeler: "),
-        ("robots no-such-robot 2>&-", 1, ""),
-        ("robots no-such-robot <&-", 1, "modeler: "),
-        ("effects | head -1", 0, ""),
-    ],
+@with_cases(
+    "words, status, shown",
+    ("robots >&-", 0, ""),
+    ("robots no-such-robot >&-", 1, "modeler: "),
+    ("robots no-such-robot 2>&-", 1, ""),
+    ("robots no-such-robot <&-", 1, "modeler: "),
+    ("effects | head -1", 0, ""),
 )
 def test_closed_streams_and_a_reader_that_stops_are_no_error(words, status, shown) -> None:
     command = f'"{sys.executable}" -m modeler {words}'

@@ -6,22 +6,24 @@ import shlex
 
 import pytest
 
-from modeler.cli import build_parser, main
-from modeler.cli.parser import (
-    collect_arguments,
-    collect_command_parsers,
-    collect_options,
-    parse_words,
-)
+from modeler.cli import build_parser, main, parser
+from tests.rotation import with_cases
 
 # What each argument of a command takes here; no file has to be there.
 WORDS = {
-    "model": ["m.json"], "logs": ["a.parquet", "b.csv"], "robot": ["wrist"], "effect": ["coulomb"],
-    "source": ["wrist"], "file": ["x.par"], "paper": ["guegan-2003"], "shell": ["bash"],
-    "log": ["run.csv"], "folder": ["arm"],
-}  # fmt: skip
+    "model": ["m.json"],
+    "logs": ["a.parquet", "b.csv"],
+    "robot": ["wrist"],
+    "effect": ["coulomb"],
+    "source": ["wrist"],
+    "file": ["x.par"],
+    "paper": ["guegan-2003"],
+    "shell": ["bash"],
+    "log": ["run.csv"],
+    "folder": ["arm"],
+}
 VALUES = {"sets": ["3"], "cad": ["cad.toml"]}
-PARSERS = collect_command_parsers(build_parser())
+PARSERS = parser.collect_command_parsers(build_parser())
 
 
 def required(subparser: argparse.ArgumentParser) -> list[str]:
@@ -36,13 +38,13 @@ def required(subparser: argparse.ArgumentParser) -> list[str]:
 WITH_VALUE = [
     (name, option)
     for name, subparser in PARSERS.items()
-    for option, action in collect_options(subparser).items()
+    for option, action in parser.collect_options(subparser).items()
     if isinstance(action, argparse._AppendAction) or action.nargs == "?"
 ]
 
 
 def read(words: list[str]) -> dict[str, object]:
-    found = vars(parse_words(words)[0])
+    found = vars(parser.parse_words(words)[0])
     return {name: value for name, value in found.items() if name != "load"}
 
 
@@ -50,9 +52,9 @@ def read(words: list[str]) -> dict[str, object]:
 def test_the_order_does_not_matter(name: str, option: str) -> None:
     """After the arguments, before them, in their midst, repeated: the same is read."""
     subparser = PARSERS[name]
-    action = collect_options(subparser)[option]
+    action = parser.collect_options(subparser)[option]
     values = VALUES.get(action.dest, ["c.parquet", "d.parquet"])
-    arguments = [WORDS[argument.dest][0] for argument in collect_arguments(subparser)]
+    arguments = [WORDS[argument.dest][0] for argument in parser.collect_arguments(subparser)]
     rest = required(subparser)
     typed = [word for value in values for word in (option, value)]
     after = read([name, *arguments, *rest, *typed])
@@ -69,20 +71,23 @@ def test_the_order_does_not_matter(name: str, option: str) -> None:
 
 
 def test_a_list_is_given_by_repeating_the_option(capsys) -> None:
-    found, _ = parse_words(shlex.split("diagnose --holdout b m.json a --holdout=c e"))
+    found, _ = parser.parse_words(shlex.split("diagnose --holdout b m.json a --holdout=c e"))
     assert (found.model, found.logs, found.holdout) == ("m.json", ["a", "e"], ["b", "c"])
     assert "holdout" in found.typed and "logs" not in found.typed
-    cut = parse_words(shlex.split("fit emps a --meth robust --out m"))[0]
+    cut = parser.parse_words(shlex.split("fit emps a --meth robust --out m"))[0]
     assert cut.method == "robust" and cut.typed == {"method", "out"}
 
 
-@pytest.mark.parametrize(
-    ("words", "missing"),
-    [("diagnose m.json --holdout b", "LOG"), ("add m.json --out x --holdout b", "EFFECT, LOG"),
-     ("diagnose --holdout b", "MODEL, LOG"), ("physical --cad", "ROBOT|MODEL"),
-     ("excite --from a", "ROBOT|MODEL"), ("fit emps --payload-log a --out m", "LOG"),
-     ("fit emps a", "--out")],
-)  # fmt: skip
+@with_cases(
+    "words, missing",
+    ("diagnose m.json --holdout b", "LOG"),
+    ("add m.json --out x --holdout b", "EFFECT, LOG"),
+    ("diagnose --holdout b", "MODEL, LOG"),
+    ("physical --cad", "ROBOT|MODEL"),
+    ("excite --from a", "ROBOT|MODEL"),
+    ("fit emps --payload-log a --out m", "LOG"),
+    ("fit emps a", "--out"),
+)
 def test_what_is_missing_is_missed(capsys, words: str, missing: str) -> None:
     with pytest.raises(SystemExit) as stop:
         main(words.split())
@@ -98,9 +103,9 @@ def test_the_usage_tells_an_order_that_works(name: str) -> None:
     assert all(len(line) <= 100 or line.count(" [") == 1 for line in usage.splitlines())
     flat = " ".join(usage.split())
     first = next(re.finditer(r"[ \[]-", flat)).start()
-    for action in collect_arguments(subparser):
+    for action in parser.collect_arguments(subparser):
         assert 0 < flat.find(str(action.metavar)) < first
-    for option, action in collect_options(subparser).items():
+    for option, action in parser.collect_options(subparser).items():
         if option.startswith("--") and action.help != argparse.SUPPRESS:
             named = any(name in flat for name in action.option_strings)  # by one of its names
             assert named or option in ("--help", "--quiet", "--verbose"), option

@@ -8,14 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from modeler.codegen.emit import emit
+from modeler.core import manifest
 from modeler.core.choices import read_builtin_robot
-from modeler.core.manifest import (
-    ArgumentSpec,
-    EmittedModule,
-    FittedParameter,
-    FittedSpec,
-    ModuleSpec,
-)
 from modeler.derivation.base_parameters import derive_base_parameters
 from modeler.derivation.derive import derive_model
 from modeler.robot.edit import replace_effects
@@ -48,20 +42,20 @@ def robot_module(name: str) -> Module:
     return Module(model, base, emit(model, base))
 
 
-def fitted_of(spec: ModuleSpec, seed: int = 4) -> FittedSpec:
+def fitted_of(spec: manifest.ModuleSpec, seed: int = 4) -> manifest.FittedSpec:
     """Values of any size; friction is none that drives."""
     random = np.random.default_rng(seed)
     parameters = []
     for base in spec.base:
         value = float(random.normal())
         value = abs(value) if base.column_of.startswith(("Fs", "Fv")) else value
-        parameters.append(FittedParameter(base.name, base.unit, value, 0.1))
-    return FittedSpec(
+        parameters.append(manifest.FittedParameter(base.name, base.unit, value, 0.1))
+    return manifest.FittedSpec(
         "weighted", True, "usable: yes", (), ("Values of a test.",), tuple(parameters)
     )
 
 
-def with_values(name: str, fitted: FittedSpec | None = None) -> EmittedModule:
+def with_values(name: str, fitted: manifest.FittedSpec | None = None) -> manifest.EmittedModule:
     """The module of a robot with these values, or with any."""
     made = robot_module(name)
     return emit(made.model, made.base, fitted or fitted_of(made.emitted.spec))
@@ -70,7 +64,7 @@ def with_values(name: str, fitted: FittedSpec | None = None) -> EmittedModule:
 class Functions:
     """The compiled functions of an emitted module, one sample a call."""
 
-    def __init__(self, emitted: EmittedModule, **widths: float) -> None:
+    def __init__(self, emitted: manifest.EmittedModule, **widths: float) -> None:
         """Compile; widths by the end of their macro's name, `COULOMB_WIDTH_1=0.1`.
 
         With widths, and where no loops close, the unit that reads them is all that is compiled.
@@ -98,7 +92,7 @@ class Functions:
         """Names of all functions, without the robot's."""
         return list(self._known)
 
-    def inputs(self, role: str) -> tuple[ArgumentSpec, ...]:
+    def inputs(self, role: str) -> tuple[manifest.ArgumentSpec, ...]:
         """Arguments that a function reads."""
         return self._known[role].inputs
 

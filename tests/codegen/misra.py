@@ -15,8 +15,12 @@ from pycparser import c_ast, c_parser
 _BOOLEAN = {"<", ">", "<=", ">=", "==", "!=", "&&", "||"}
 
 _FAKE = Path(__file__).with_name("programs") / "fake_library.h"
-_HEADERS = ("math", "stddef", "stdint", "string", "stdio", "stdlib", "stdbool", "stdarg", "limits",
-            "float", "errno", "immintrin", "time", "fenv", "assert", "ctype")  # fmt: skip
+_HEADERS = tuple(
+    """
+    math stddef stdint string stdio stdlib stdbool stdarg limits float errno immintrin time fenv
+    assert ctype
+""".split()
+)
 
 
 def violations(folder: Path, name: str, *words: str) -> list[str]:
@@ -32,16 +36,29 @@ def violations(folder: Path, name: str, *words: str) -> list[str]:
     for header in _HEADERS:
         shutil.copy(_FAKE, fake / f"{header}.h")
     done = subprocess.run(
-        ["gcc", "-E", "-std=c99", "-nostdinc", "-D__attribute__(x)=", "-D__inline=inline",
-         "-D__restrict=restrict", "-D__extension__=", "-D__builtin_memset(a,b,c)=memset(a,b,c)",
-         f"-I{fake}", f"-I{folder}", *words, name],
-        cwd=folder, capture_output=True, text=True, check=True,
-    )  # fmt: skip
+        [
+            *"""
+                gcc -E -std=c99 -nostdinc -D__attribute__(x)= -D__inline=inline
+                -D__restrict=restrict -D__extension__= -D__builtin_memset(a,b,c)=memset(a,b,c)
+            """.split(),
+            f"-I{fake}",
+            f"-I{folder}",
+            *words,
+            name,
+        ],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     text = re.sub(r"^#pragma.*$", "", done.stdout, flags=re.M)
     text = re.sub(r"\b(__asm__|asm)\b[^;]*;", ";", text)
     tree = c_parser.CParser().parse(text, name)
-    return [f"{rule} {Path(at.file).name}:{at.line}" for rule, at in _broken(tree)
-            if "fake" not in at.file]  # fmt: skip
+    return [
+        f"{rule} {Path(at.file).name}:{at.line}"
+        for rule, at in _broken(tree)
+        if "fake" not in at.file
+    ]
 
 
 def _broken(node: c_ast.Node, stands: bool = False) -> Iterator[tuple[str, object]]:

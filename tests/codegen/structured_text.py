@@ -16,15 +16,23 @@ _TOKENS = re.compile(
     re.DOTALL,
 )
 _STANDARD: dict[str, Callable[..., float]] = {
-    "sin": math.sin, "cos": math.cos, "tan": math.tan, "exp": math.exp, "sqrt": math.sqrt,
-    "abs": abs, "expt": math.pow, "trunc": math.trunc, "dint_to_lreal": float,
-}  # fmt: skip
-_KEYWORDS = {
-    "function", "function_block", "end_function", "end_function_block", "var", "var_input",
-    "var_in_out", "var_temp", "end_var", "constant", "if", "then", "elsif", "else", "end_if",
-    "array", "of", "lreal", "dint", "and", "or", "not", "mod", "xor", "true", "false", "at", "by",
-    "case", "do", "exit", "for", "repeat", "return", "to", "type", "until", "while", "with",
-}  # fmt: skip
+    "sin": math.sin,
+    "cos": math.cos,
+    "tan": math.tan,
+    "exp": math.exp,
+    "sqrt": math.sqrt,
+    "abs": abs,
+    "expt": math.pow,
+    "trunc": math.trunc,
+    "dint_to_lreal": float,
+}
+_KEYWORDS = set(
+    """
+    function function_block end_function end_function_block var var_input var_in_out var_temp
+    end_var constant if then elsif else end_if array of lreal dint and or not mod xor true false at
+    by case do exit for repeat return to type until while with
+""".split()
+)
 
 
 class TextError(Exception):

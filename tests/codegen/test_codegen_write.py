@@ -14,6 +14,7 @@ from modeler.codegen.package import RECORD, hash_content, list_leftovers, write_
 from modeler.core.errors import ModelerError
 from modeler.core.manifest import EmittedModule
 from tests.modules import compiler, module
+from tests.rotation import with_cases
 
 
 @pytest.fixture
@@ -41,14 +42,18 @@ def test_only_changed_files_are_written_and_foreign_ones_stay(emitted, tmp_path)
     assert (tmp_path / "emps.c").read_text() == emitted.files["emps.c"] + "\n"
 
 
-@pytest.mark.parametrize(
-    ("name", "mine", "says"),
-    [("README.md", "mine", "README.md, not known to be of an earlier generate; choose another "
-                           "folder, or write over them with --force"),
-     (RECORD, "my notes\n", f"{RECORD}, not known to be of an earlier"),
-     ("Makefile", None, "Makefile, not known")],
+@with_cases(
+    "name, mine, says",
+    (
+        "README.md",
+        "mine",
+        "README.md, not known to be of an earlier generate; choose another "
+        "folder, or write over them with --force",
+    ),
+    (RECORD, "my notes\n", f"{RECORD}, not known to be of an earlier"),
+    ("Makefile", None, "Makefile, not known"),
     ids=["a file", "one that has the name of the record", "a pipe, which is not waited for"],
-)  # fmt: skip
+)
 def test_files_of_the_user_are_named_and_stay(emitted, tmp_path, name, mine, says):
     if mine is None:
         os.mkfifo(tmp_path / name)
@@ -196,12 +201,12 @@ def test_the_record_can_be_checked_by_others(emitted, tmp_path):
     subprocess.run([compiler("sha256sum"), "-c", "--strict", RECORD], cwd=tmp_path, check=True)
 
 
-@pytest.mark.parametrize(
-    ("option", "file", "says"),
-    [("--cuda", "two_link.cu", "two_link_nonzeros_kernel"),
-     ("--a2l", "two_link.a2l", "/end PROJECT"),
-     ("--structured-text", "two_link.st", "FUNCTION_BLOCK two_link_gravity")],
-)  # fmt: skip
+@with_cases(
+    "option, file, says",
+    ("--cuda", "two_link.cu", "two_link_nonzeros_kernel"),
+    ("--a2l", "two_link.a2l", "/end PROJECT"),
+    ("--structured-text", "two_link.st", "FUNCTION_BLOCK two_link_gravity"),
+)
 def test_a_command_with_an_option_writes_more_and_one_without_takes_it_away(
     option, file, says, tmp_path, capsys
 ):

@@ -18,11 +18,19 @@ FLAGS = {
 }
 FOLDERS = [
     *(("gcc", "emps"), ("clang", "emps"), ("g++", "emps")),
-    *rotating(("clang++", "orthoglide-2003"), ("gcc", "orthoglide-2003"), ("clang", "slow-arm"),
-              ("gcc", "slow-arm"), ("g++", "slow-arm"), ("clang", "five-bar"),
-              ("gcc", "sr400"), ("gcc", "wrist-coupled"), ("clang", "sr400-tree")),
+    *rotating(
+        ("clang++", "orthoglide-2003"),
+        ("gcc", "orthoglide-2003"),
+        ("clang", "slow-arm"),
+        ("gcc", "slow-arm"),
+        ("g++", "slow-arm"),
+        ("clang", "five-bar"),
+        ("gcc", "sr400"),
+        ("gcc", "wrist-coupled"),
+        ("clang", "sr400-tree"),
+    ),
     pytest.param("gcc", "evra", marks=ROTATING),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("cc", "name"), FOLDERS)

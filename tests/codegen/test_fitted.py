@@ -8,7 +8,7 @@ import pytest
 from modeler.core.errors import EmitError
 from modeler.core.manifest import FittedSpec
 from tests.codegen.fitted_library import Functions, fitted_of, motion, robot_module, with_values
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 KINDS = (
     pytest.param("slow-arm", marks=pytest.mark.digits),
@@ -133,15 +133,15 @@ def test_values_of_zero_cost_nothing():
     assert "set aside: the logs do not tell it" in emitted.files["demo_arm_fitted.c"]
 
 
-@pytest.mark.parametrize(
-    ("change", "says"),
-    [
-        (lambda p: p[1:], "expected those of the base parameters"),
-        (lambda p: (p[1], p[0], *p[2:]), "expected those of the base parameters"),
-        (lambda p: (dataclasses.replace(p[0], value=float("nan")), *p[1:]),
-         r"ZZ1R: got the value nan; expected a number; fit the model again"),
-    ],
-)  # fmt: skip
+@with_cases(
+    "change, says",
+    (lambda p: p[1:], "expected those of the base parameters"),
+    (lambda p: (p[1], p[0], *p[2:]), "expected those of the base parameters"),
+    (
+        lambda p: (dataclasses.replace(p[0], value=float("nan")), *p[1:]),
+        r"ZZ1R: got the value nan; expected a number; fit the model again",
+    ),
+)
 def test_values_that_are_none_are_refused(change, says):
     fitted: FittedSpec = fitted_of(robot_module("two-link").emitted.spec)
     wrong = dataclasses.replace(fitted, parameters=change(fitted.parameters))

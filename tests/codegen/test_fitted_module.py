@@ -64,9 +64,12 @@ def test_the_manifest_has_the_values_and_the_robots_signature(tmp_path):
     fitted = raw.pop("fitted")
     assert raw == before
     assert fitted["parameters"][0] == {
-        "name": "ZZ1R", "unit": "kg m2", "value": emitted.spec.fitted.parameters[0].value,
-        "sigma": 0.1, "essential": True,
-    }  # fmt: skip
+        "name": "ZZ1R",
+        "unit": "kg m2",
+        "value": emitted.spec.fitted.parameters[0].value,
+        "sigma": 0.1,
+        "essential": True,
+    }
     assert len(fitted["functions"]) == 5
     assert not any(a["name"] == "beta" for f in fitted["functions"] for a in f["inputs"])
 

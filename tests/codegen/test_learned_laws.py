@@ -25,7 +25,7 @@ from tests.compiled.test_tiles import compiled_check
 from tests.export.test_casadi import far
 from tests.learned import drawn, scipy_value, text_with
 from tests.modules import Module, compiler, loaded
-from tests.rotation import ROTATING, rotating
+from tests.rotation import ROTATING, rotating, with_cases
 
 RNG = np.random.default_rng(20260)
 LAWS = {
@@ -33,9 +33,7 @@ LAWS = {
     "2": ("law(-v)", drawn(RNG, 1)),
     "3": ("law(1/3, q)*v + law(a, 0)", drawn(RNG, 2, (4, 3))),
 }  # of two quantities, of one, and of constants
-ARGUMENTS = {
-    "1": lambda q, v, a: (q, np.abs(v)), "2": lambda q, v, a: (-v,),
-}  # fmt: skip
+ARGUMENTS = {"1": lambda q, v, a: (q, np.abs(v)), "2": lambda q, v, a: (-v,)}
 
 
 @cache
@@ -96,9 +94,8 @@ def close(got: np.ndarray, wanted: np.ndarray, joint: str, motion, precision: fl
 
 
 @pytest.mark.parametrize("joint", LAWS)
-@pytest.mark.parametrize(
-    ("precision", "bound"),
-    [pytest.param("double", 1e-15, marks=pytest.mark.digits), ("single", 2e-7)],
+@with_cases(
+    "precision, bound", pytest.param("double", 1e-15, marks=pytest.mark.digits), ("single", 2e-7)
 )
 def test_the_c_has_the_values_of_python_and_of_scipy(joint, precision, bound):
     model, states = compiled(precision), motion(400)
@@ -122,12 +119,10 @@ def test_what_is_not_finite_gives_no_number_in_any_lane(precision):
     np.testing.assert_allclose(got, wanted, atol=1e-5)
 
 
-@pytest.mark.parametrize(
-    ("cc", "flags"),
-    [
-        ("gcc", ["-O0"]),
-        *rotating(("clang", ["-DMODELER_PLAIN"]), ("clang", ["-O0"]), ("gcc", ["-O2"])),
-    ],
+@with_cases(
+    "cc, flags",
+    ("gcc", ["-O0"]),
+    *rotating(("clang", ["-DMODELER_PLAIN"]), ("clang", ["-O0"]), ("gcc", ["-O2"])),
 )
 def test_every_instruction_set_and_compiler_gives_the_same(cc, flags, tmp_path):
     names = [name for name in with_control().spec.sources if name.startswith("demo_arm")]
@@ -186,8 +181,14 @@ def test_structured_text_gives_what_the_c_gives():
     wanted[7, 1] = np.nan
     for i in range(len(q)):
         tau = [0.0] * 3
-        program("demo_arm_inverse_dynamics", q=list(q[i]), qd=list(v[i]), qdd=list(a[i]),
-                beta=list(beta), tau=tau)  # fmt: skip
+        program(
+            "demo_arm_inverse_dynamics",
+            q=list(q[i]),
+            qd=list(v[i]),
+            qdd=list(a[i]),
+            beta=list(beta),
+            tau=tau,
+        )
         assert i == 7 or np.allclose(tau, wanted[i], rtol=1e-11, atol=1e-9)
         assert i != 7 or np.isnan(tau[1])
 

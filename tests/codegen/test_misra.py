@@ -11,7 +11,7 @@ from modeler.codegen.wrappers import build_fmu_files
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.codegen.misra import violations
 from tests.repository import ROOT
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 _OTHERWISE = ("-DMODELER_BOUNDED_ANGLES", "-D__OPTIMIZE_SIZE__", "-U__GNUC__")
 
@@ -25,13 +25,11 @@ def written(folder: Path, files) -> list[str]:
     return [name for name in texts if name.endswith(".c")]
 
 
-@pytest.mark.parametrize(
-    ("name", "precision"),
-    [
-        ("two-link", "double"),
-        *rotating(("five-bar", "single"), ("slow-arm", "single")),
-        pytest.param("3rrr", "double", marks=pytest.mark.slow),
-    ],
+@with_cases(
+    "name, precision",
+    ("two-link", "double"),
+    *rotating(("five-bar", "single"), ("slow-arm", "single")),
+    pytest.param("3rrr", "double", marks=pytest.mark.slow),
 )
 def test_no_emitted_or_runtime_file_breaks_the_three_rules(name, precision, tmp_path) -> None:
     made = robot_module(name)
@@ -61,19 +59,17 @@ def test_the_wrapper_of_the_fmu_and_the_runtime_of_fits_keep_them_too(tmp_path) 
         assert not broken, sorted(set(broken))
 
 
-@pytest.mark.parametrize(
-    ("text", "rules"),
-    [
-        ("a = b = 1;", ["13.4"]),
-        ("if (a) { b = 1; }", ["14.4"]),
-        ("while (a - 1) { a = 2; }", ["14.4"]),
-        ("if (a > 0) { b = 1; } else b = 2;", ["15.6"]),
-        ("if (a > 0) { b = 1; } else if (b > 0) { b = 2; } else { a = 3; }", []),
-        ("for (a = 0, b = 1; a < 2 && !b; a++) ;", ["15.6"]),
-        ("do { a = 1; } while (a != 1 || b == 2);", []),
-        ("switch (a) { case 1: a = 2; break; default: b = 1; }", []),
-        ("f(a = 1); a += b; b++;", ["13.4"]),
-    ],
+@with_cases(
+    "text, rules",
+    ("a = b = 1;", ["13.4"]),
+    ("if (a) { b = 1; }", ["14.4"]),
+    ("while (a - 1) { a = 2; }", ["14.4"]),
+    ("if (a > 0) { b = 1; } else b = 2;", ["15.6"]),
+    ("if (a > 0) { b = 1; } else if (b > 0) { b = 2; } else { a = 3; }", []),
+    ("for (a = 0, b = 1; a < 2 && !b; a++) ;", ["15.6"]),
+    ("do { a = 1; } while (a != 1 || b == 2);", []),
+    ("switch (a) { case 1: a = 2; break; default: b = 1; }", []),
+    ("f(a = 1); a += b; b++;", ["13.4"]),
 )
 def test_the_check_tells_what_breaks_a_rule(text: str, rules: list[str], tmp_path) -> None:
     (tmp_path / "x.c").write_text(f"void f(int); void g(int a, int b)\n{{\n    {text}\n}}\n")

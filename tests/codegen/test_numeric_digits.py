@@ -9,6 +9,7 @@ from modeler.robot import parse_robot_text
 from tests.codegen.fitted_library import robot_text
 from tests.loops.drawn_robots import drawn
 from tests.modules import loaded
+from tests.rotation import with_cases
 
 TWISTED = robot_text("twisted")
 """A base that is tilted as gravity is: what that does to the relations only numbers say."""
@@ -18,12 +19,10 @@ def text_of(name: str) -> str:
     return TWISTED if name == "twisted" else drawn(name, 1)
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "name",
-    [
-        pytest.param("twisted", marks=pytest.mark.digits),
-        pytest.param("on_a_plane", marks=pytest.mark.slow),
-    ],
+    pytest.param("twisted", marks=pytest.mark.digits),
+    pytest.param("on_a_plane", marks=pytest.mark.slow),
 )
 def test_relations_in_numbers_keep_the_digits_of_a_double(name: str) -> None:
     derivation = derive(parse_robot_text(text_of(name), name))

@@ -30,9 +30,17 @@ def run_in_c(outputs: list[Expr], values: dict[str, float], tmp_path, target=DOU
     csrc = locate_resources("csrc")
     floats = ["-Wdouble-promotion", "-Wfloat-conversion", "-I", csrc / "single"]
     # No contraction: what is printed must be what Python computes.
-    command = [compiler("gcc"), "-std=c99", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable",
-               *floats * (target is SINGLE), "-I", csrc / "include", "-O1", "-ffp-contract=off",
-               "-shared", "-fPIC", "-o", library, source, "-lm"]  # fmt: skip
+    command = [
+        compiler("gcc"),
+        *"-std=c99 -Wall -Wextra -Werror -Wno-unused-variable".split(),
+        *floats * (target is SINGLE),
+        "-I",
+        csrc / "include",
+        *"-O1 -ffp-contract=off -shared -fPIC -o".split(),
+        library,
+        source,
+        "-lm",
+    ]
     subprocess.run(command, check=True)
     inputs, out = np.array(list(values.values()), kind), np.empty(len(outputs), kind)
     arrays = (array.ctypes.data_as(ctypes.c_void_p) for array in (inputs, out))
@@ -110,10 +118,13 @@ def test_numbers_of_single_precision_and_those_beyond_a_precision():
 def test_what_has_no_form_in_c_is_refused():
     graph = Graph()
     for expression, places, says in (
-        (graph.call("erf", graph.symbol("x")), {"x": "in[0]"},
-         "function erf has no C99 form here; expected sin"),
+        (
+            graph.call("erf", graph.symbol("x")),
+            {"x": "in[0]"},
+            "function erf has no C99 form here; expected sin",
+        ),
         (graph.symbol("lost"), {}, "symbol lost has no place"),
-    ):  # fmt: skip
+    ):
         with pytest.raises(EmitError, match=says):
             make_block([("out[0]", expression)], places)
 

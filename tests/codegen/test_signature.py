@@ -27,7 +27,7 @@ from tests.codegen.fitted_library import robot_text
 from tests.modules import module
 from tests.repository import ROOT
 from tests.robots import CLOSED, KINDS
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 ARM = """
 name = "arm"
@@ -51,8 +51,9 @@ def sources(made: EmittedModule) -> dict[str, str]:
     signature = made.spec.compute_signature()
     texts = {name: made.files[name] for name in (*made.spec.sources, *made.spec.tile_sources)}
     for old, new in (
-        (f'"{signature}"', '""'), *((f"0x{signature[i : i + 8]}u", "0xu") for i in (0, 8)),
-    ):  # fmt: skip
+        (f'"{signature}"', '""'),
+        *((f"0x{signature[i : i + 8]}u", "0xu") for i in (0, 8)),
+    ):
         texts = {name: text.replace(old, new) for name, text in texts.items()}
     return texts
 
@@ -95,16 +96,14 @@ def other_machine(core: str, seed: str) -> dict[str, str]:
     }
 
 
-@pytest.mark.parametrize(
-    ("core", "seed", "names"),
-    [
-        ("Prescott", "1", ()),
-        *rotating(
-            ("Prescott", "1", ("five-bar",)),
-            ("Prescott", "1", ("delta",)),
-            ("Haswell", "77", ("five-bar", "panda")),
-        ),
-    ],
+@with_cases(
+    "core, seed, names",
+    ("Prescott", "1", ()),
+    *rotating(
+        ("Prescott", "1", ("five-bar",)),
+        ("Prescott", "1", ("delta",)),
+        ("Haswell", "77", ("five-bar", "panda")),
+    ),
 )
 def test_signatures_are_the_same_on_every_machine(core, seed, names, tmp_path):
     """Loops are closed by iteration, coefficients are sines: last digits that must not show."""
@@ -113,8 +112,11 @@ def test_signatures_are_the_same_on_every_machine(core, seed, names, tmp_path):
     environment = {**os.environ, "PYTHONPATH": str(ROOT), **other_machine(core, seed)}
     ran = subprocess.run(
         [sys.executable, Path(__file__).with_name("signatures.py"), *names, bent],
-        env=environment, capture_output=True, text=True, check=True,
-    )  # fmt: skip
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     expected = {name: module(name).emitted.spec.compute_signature() for name in names}
     expected[str(bent)] = emitted(TRIGONOMETRY).spec.compute_signature()
     assert json.loads(ran.stdout) == expected
@@ -187,9 +189,12 @@ def test_functions_give_the_nearest_double(name):
 
 def test_functions_refuse_what_has_no_value():
     for text, error in (
-        ("exp(1e9)", OverflowError), ("1e200**2", OverflowError), ("0**-1", ZeroDivisionError),
-        ("sqrt(-1)", ValueError), ("(-8)**0.5", TypeError),
-    ):  # fmt: skip
+        ("exp(1e9)", OverflowError),
+        ("1e200**2", OverflowError),
+        ("0**-1", ZeroDivisionError),
+        ("sqrt(-1)", ValueError),
+        ("(-8)**0.5", TypeError),
+    ):
         with pytest.raises(error):
             parse_expression(text).evaluate()
     assert parse_expression("2**10 + (-2)**3 + 0**0").evaluate() == 1017.0

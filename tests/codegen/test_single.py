@@ -17,7 +17,7 @@ from modeler.runtime.model import CompiledModel, load_folder
 from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.csrc.emitted_folders import built, run
 from tests.modules import STRICT, compiler, loaded, module, plain, states, unoptimised
-from tests.rotation import ROTATING, rotating
+from tests.rotation import ROTATING, rotating, with_cases
 
 FLOATS = ["-Wdouble-promotion", "-Wfloat-conversion"]
 
@@ -33,12 +33,10 @@ def single(name: str) -> CompiledModel:
     return loaded(emit(module(name).model, module(name).base, precision="single"))
 
 
-@pytest.mark.parametrize(
-    ("name", "cc"),
-    [
-        ("slow-arm", "gcc"),
-        *rotating(("slow-arm", "clang"), ("five-bar", "gcc"), ("five-bar", "clang")),
-    ],
+@with_cases(
+    "name, cc",
+    ("slow-arm", "gcc"),
+    *rotating(("slow-arm", "clang"), ("five-bar", "gcc"), ("five-bar", "clang")),
 )
 def test_a_module_compiles_without_a_warning_and_checks_itself(name, cc, tmp_path):
     """The fitted unit and all programs included; of <math.h> only functions of floats."""
@@ -60,18 +58,16 @@ def test_a_module_compiles_without_a_warning_and_checks_itself(name, cc, tmp_pat
     assert len(torques.stdout.split()) == (3 if lines else 0)
 
 
-@pytest.mark.parametrize(
-    ("name", "bound", "samples"),
-    [
-        pytest.param("wrist", 1e-6, 50, marks=pytest.mark.digits),
-        pytest.param("five-bar", 1e-5, 50, marks=pytest.mark.digits),
-        pytest.param("orthoglide-2003", 1e-4, 300, marks=ROTATING),
-        *(
-            pytest.param(name, 1e-6, 300, marks=ROTATING)
-            for name in ("puma560", "emps", "sr400-tree", "wrist-coupled", "sr400")
-        ),
-    ],
-)  # fmt: skip
+@with_cases(
+    "name, bound, samples",
+    pytest.param("wrist", 1e-6, 50, marks=pytest.mark.digits),
+    pytest.param("five-bar", 1e-5, 50, marks=pytest.mark.digits),
+    pytest.param("orthoglide-2003", 1e-4, 300, marks=ROTATING),
+    *(
+        pytest.param(name, 1e-6, 300, marks=ROTATING)
+        for name in ("puma560", "emps", "sr400-tree", "wrist-coupled", "sr400")
+    ),
+)
 def test_it_computes_what_double_precision_computes(name, bound, samples):
     """To `bound` of what is added up; of loops as well as the posture shows, near home."""
     one, two = single(name), plain(name)

@@ -12,7 +12,7 @@ from modeler.core.errors import EmitError
 from tests.codegen.fitted_library import Functions, fitted_of, motion, robot_module
 from tests.codegen.structured_text import Program, TextError
 from tests.modules import module
-from tests.rotation import ROTATING, rotating
+from tests.rotation import ROTATING, rotating, with_cases
 
 ROLES = ("inverse_dynamics", "inertia_matrix", "gravity", "coriolis", "friction")
 
@@ -72,11 +72,11 @@ def test_nothing_is_kept_between_calls_and_each_function_is_declared_once() -> N
     assert max(map(len, text.splitlines())) <= 100 and text.isascii()
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "name",
-    [pytest.param("emps", marks=pytest.mark.rotating("readers of standards")),
-     *(pytest.param(n, marks=ROTATING) for n in ("two-link", "slow-arm"))],
-)  # fmt: skip
+    pytest.param("emps", marks=pytest.mark.rotating("readers of standards")),
+    *(pytest.param(n, marks=ROTATING) for n in ("two-link", "slow-arm")),
+)
 def test_another_parser_of_the_standard_reads_it(name: str) -> None:
     blark = pytest.importorskip("blark.parse", reason="blark reads Structured Text: pip install it")
     emitted = made_of(name, fitted=True)
@@ -91,8 +91,15 @@ def test_the_reader_refuses_what_is_not_of_the_standard() -> None:
         "FUNCTION_BLOCK f\nVAR_IN_OUT\n q : ARRAY [0..1] OF LREAL;\nEND_VAR\n{}\nEND_FUNCTION_BLOCK"
     )
     Program(head.format("q[1] := q[0];"))
-    for wrong in ("q[2] := 1.0;", "q[0] := r;", "q[0] := 1e5;", "q[0] = 1.0;", "if := 1.0;",
-                  "a__b := 1.0;", "q[0] := tanh(q[1]);"):  # fmt: skip
+    for wrong in (
+        "q[2] := 1.0;",
+        "q[0] := r;",
+        "q[0] := 1e5;",
+        "q[0] = 1.0;",
+        "if := 1.0;",
+        "a__b := 1.0;",
+        "q[0] := tanh(q[1]);",
+    ):
         with pytest.raises(TextError):
             Program(head.format(wrong))
 

@@ -18,6 +18,7 @@ from modeler.derivation.derive import derive_model
 from modeler.derivation.model import SymbolicModel
 from modeler.robot.read import parse_robot_text
 from tests.modules import STRICT, compiler, loaded, module, states
+from tests.rotation import with_cases
 
 PLANAR = """
 name = "{name}"
@@ -85,8 +86,19 @@ def torque_with(cc, folder, define) -> subprocess.CompletedProcess:
     """Torques that the C computes where `define` stands for L1, strictly compiled."""
     write_emitted(module("two-link").emitted, folder)
     torque = Path(__file__).with_name("programs") / "torque.c"
-    command = [compiler(cc), *STRICT, "-O0", f"-DTWO_LINK_GEO_L1={define}", "-I", folder,
-               "-o", "torque", torque, "two_link.c", "-lm"]  # fmt: skip
+    command = [
+        compiler(cc),
+        *STRICT,
+        "-O0",
+        f"-DTWO_LINK_GEO_L1={define}",
+        "-I",
+        folder,
+        "-o",
+        "torque",
+        torque,
+        "two_link.c",
+        "-lm",
+    ]
     built = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     if built.returncode:
         return built
@@ -120,23 +132,20 @@ def test_symbols_in_plain_cells_are_free(symbols):
     assert find_deciding_symbols(arm(symbols).geometry) == set()
 
 
-@pytest.mark.parametrize(
-    ("symbols", "cells", "stay"),
-    [
-        # A symbol worth 0 through others: these others must keep their sum.
-        ('L = 0.5\nA = 0.2\nB = 0.2\ne = "A - B"', {"r": "e"}, {"A", "B"}),
-        # The other cell of these symbols stays as it is, but the structure does not.
-        ('L = 0.5\nB = 0.5\ne = "L - B"', {"r": "L + e"}, {"L", "B"}),
-        # Two angles that are a right one together.
-        (f'L = 0.5\na = 0.7\nb = {np.pi / 2 - 0.7!r}\nc = "a + b"', {"alpha": "c"}, {"a", "b"}),
-        # A right angle but for a hair.
-        ("L = 0.5\ne = 1e-12", {"alpha": "pi/2 + e"}, {"e"}),
-        # Folded into the structure.
-        *(
-            (f"L = 0.5\na = {value}", {"alpha": "a"}, set())
-            for value in ("0", repr(np.pi / 2), '"pi/6"', '"2*L"')
-        ),
-    ],
+@with_cases(
+    "symbols, cells, stay",  # A symbol worth 0 through others: these others must keep their sum.
+    ('L = 0.5\nA = 0.2\nB = 0.2\ne = "A - B"', {"r": "e"}, {"A", "B"}),
+    # The other cell of these symbols stays as it is, but the structure does not.
+    ('L = 0.5\nB = 0.5\ne = "L - B"', {"r": "L + e"}, {"L", "B"}),
+    # Two angles that are a right one together.
+    (f'L = 0.5\na = 0.7\nb = {np.pi / 2 - 0.7!r}\nc = "a + b"', {"alpha": "c"}, {"a", "b"}),
+    # A right angle but for a hair.
+    ("L = 0.5\ne = 1e-12", {"alpha": "pi/2 + e"}, {"e"}),
+    # Folded into the structure.
+    *(
+        (f"L = 0.5\na = {value}", {"alpha": "a"}, set())
+        for value in ("0", repr(np.pi / 2), '"pi/6"', '"2*L"')
+    ),
 )
 def test_symbols_on_which_the_structure_rests_must_stay(symbols, cells, stay, tmp_path):
     model = arm(symbols, **cells)

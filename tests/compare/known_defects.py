@@ -12,9 +12,7 @@ PERIOD = 0.01  # s
 NOISE = 0.5  # N m
 
 
-def prediction(
-    defect: Defect | None = None, on: int = 1, noise: float = NOISE, seed: int = 0, rows: int = 6000
-) -> Prediction:
+def prediction(defect=None, on=1, noise=NOISE, seed=0, rows=6000):
     """Three joints, two logs of rows/2 samples, one segment each.
 
     The predicted torque is exact but for `defect(q, qd, qdd, tau, time)` of joint `on`, which

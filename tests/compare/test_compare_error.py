@@ -12,8 +12,14 @@ from modeler.cli import main
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     place = tmp_path_factory.mktemp("error")
-    run(["simulate", "two-link", "--hide", "stribeck@2", "--duration", "8", "--rate", "200",
-         "--seed", "5", "--out", place / "a.parquet"])  # fmt: skip
+    run(
+        [
+            *"""
+                simulate two-link --hide stribeck@2 --duration 8 --rate 200 --seed 5 --out
+            """.split(),
+            place / "a.parquet",
+        ]
+    )
     run(["fit", "two-link", place / "a.parquet", "--out", place / "m.json"])
     return place
 

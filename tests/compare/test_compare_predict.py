@@ -1,7 +1,5 @@
 """From logs to shares, orders and coordinates: torques that are added to a log are found again."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
@@ -11,6 +9,7 @@ from modeler.regression.motion import Processing, compute_travel_since_reversal
 from modeler.validation.comparison import Comparison, compare
 from modeler.validation.prediction import predict
 from modeler.validation.verdict import classify_residual, write_joint_verdict
+from tests.rotation import with_cases
 
 RATE, CUTOFF, NOISE = 400.0, 8.0, 0.8  # Hz, Hz, N m
 
@@ -52,8 +51,13 @@ def waves(time: np.ndarray, terms: list[list[tuple[float, float, float]]]) -> tu
 
 
 def wandering(time: np.ndarray) -> tuple:
-    return waves(time, [[(1.0, 0.9, 0.0), (0.5, 2.3, 1.0), (0.2, 5.1, 0.3)],
-                        [(0.8, 1.21, 0.5), (0.6, 2.9, 0.0), (0.2, 4.7, 2.0)]])  # fmt: skip
+    return waves(
+        time,
+        [
+            [(1.0, 0.9, 0.0), (0.5, 2.3, 1.0), (0.2, 5.1, 0.3)],
+            [(0.8, 1.21, 0.5), (0.6, 2.9, 0.0), (0.2, 4.7, 2.0)],
+        ],
+    )
 
 
 @pytest.fixture(scope="module")
@@ -92,9 +96,11 @@ def test_shares_from_several_logs(machine: Machine) -> None:
     motion = wandering(np.arange(0.0, 25.0, 1.0 / RATE))
     later = tuple(part[333:] for part in motion)
     extra = added(motion[1])
-    logs = [machine.log("one.csv", motion, 4, added=extra),
-            machine.log("two.csv", later, 5, added=extra[333:]),
-            machine.log("three.csv", motion, 6, added=extra)]  # fmt: skip
+    logs = [
+        machine.log("one.csv", motion, 4, added=extra),
+        machine.log("two.csv", later, 5, added=extra[333:]),
+        machine.log("three.csv", motion, 6, added=extra),
+    ]
     found = machine.compared(*logs)
     check_shares(found, "logs", extra[:, 1])
     assert [log.log for log in found.logs] == ["one.csv", "two.csv", "three.csv"]
@@ -104,8 +110,13 @@ def test_the_same_log_twice_is_no_repetition(machine: Machine) -> None:
     """Its noise would be called repeatable."""
     motion = wandering(np.arange(0.0, 25.0, 1.0 / RATE))
     log = machine.log("one.csv", motion, 4)
-    again = Log(name="again.csv", joints=log.joints, time=log.time[2000:], q=log.q[2000:],
-                tau=log.tau[2000:])  # fmt: skip
+    again = Log(
+        name="again.csv",
+        joints=log.joints,
+        time=log.time[2000:],
+        q=log.q[2000:],
+        tau=log.tau[2000:],
+    )
     for other in (again, log):
         item = machine.compared(log, other).joints[1]
         assert item.shares is not None and item.shares.method == "smooth"
@@ -163,16 +174,12 @@ def test_an_automatic_cutoff_suits_the_slowest_log(machine: Machine) -> None:
     observe(machine.compiled, [slow], chosen)
 
 
-@pytest.mark.parametrize(
-    ("words", "torque"),
-    [
-        ("follows the position of joint 2", lambda q, qd: np.sin(6.0 * q + 0.4)),
-        ("follows the motion of joint 2", lambda q, qd: np.sin(3.0 * q) * qd),
-    ],
+@with_cases(
+    "words, torque",
+    ("follows the position of joint 2", lambda q, qd: np.sin(6.0 * q + 0.4)),
+    ("follows the motion of joint 2", lambda q, qd: np.sin(3.0 * q) * qd),
 )
-def test_what_follows_another_joint_is_no_noise(
-    machine: Machine, words: str, torque: Callable
-) -> None:
+def test_what_follows_another_joint_is_no_noise(machine, words, torque):
     motion = wandering(np.arange(0.0, 20.0, 1.0 / RATE))
     added = np.zeros_like(motion[1])
     added[:, 0] = 0.3 * torque(motion[1][:, 1], motion[2][:, 1])

@@ -11,7 +11,7 @@ from modeler.validation.comparison import compare, estimate_scale
 from modeler.validation.prediction import JointInfo, Prediction
 from modeler.validation.residual_structure import find_repetitions
 from modeler.validation.verdict import write_joint_verdict
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 STEP, NOISE, KNOWN = 0.01, 0.5, 0.9  # s; N m, standard deviation of the noise; amplitude
 WAVES = np.array([20.0, 15.0])  # 1/rad
@@ -22,17 +22,21 @@ def motion(time: np.ndarray, period: float) -> np.ndarray:
     """(n, 2) rad: three harmonics, different on both joints."""
     w = 2 * np.pi / period
     return np.column_stack(
-        [np.sin(w * time) + 0.4 * np.cos(2 * w * time + 0.3),
-         0.8 * np.cos(w * time + 1.0) + 0.3 * np.sin(3 * w * time)]
-    )  # fmt: skip
+        [
+            np.sin(w * time) + 0.4 * np.cos(2 * w * time + 0.3),
+            0.8 * np.cos(w * time + 1.0) + 0.3 * np.sin(3 * w * time),
+        ]
+    )
 
 
 def wandering(time: np.ndarray) -> np.ndarray:
     """(n, 2) rad: no period."""
     return np.column_stack(
-        [np.sin(0.7 * time) + 0.6 * np.sin(1.13 * np.sqrt(2) * time + 0.02 * time**1.5),
-         np.cos(0.9 * time) + 0.5 * np.sin(1.9 * np.sqrt(3) * time)]
-    )  # fmt: skip
+        [
+            np.sin(0.7 * time) + 0.6 * np.sin(1.13 * np.sqrt(2) * time + 0.02 * time**1.5),
+            np.cos(0.9 * time) + 0.5 * np.sin(1.9 * np.sqrt(3) * time),
+        ]
+    )
 
 
 def measured(parts: list[tuple[np.ndarray, np.ndarray]], known: float, seed: int) -> Prediction:
@@ -115,11 +119,11 @@ def test_logs_of_other_motion_do_not_repeat() -> None:
     check(p, "smooth", 0.0, 0.01)
 
 
-@pytest.mark.parametrize(
-    ("defect", "tolerance"),
-    [(lambda q, qd, qdd, tau, t: 0.5 * qd, 0.1),
-     *rotating((lambda q, qd, qdd, tau, t: np.full(t.size, 1.0), 0.05))],
-)  # fmt: skip
+@with_cases(
+    "defect, tolerance",
+    (lambda q, qd, qdd, tau, t: 0.5 * qd, 0.1),
+    *rotating((lambda q, qd, qdd, tau, t: np.full(t.size, 1.0), 0.05)),
+)
 def test_without_repetition_smooth_functions_tell(defect: Defect, tolerance: float) -> None:
     """0.5 qd is missing, or an offset: their mean squares are known."""
     p = prediction(defect, seed=3)
@@ -187,11 +191,14 @@ def test_no_lap_in_a_motion_that_wanders() -> None:
     assert estimate_lap_period(time[:5], wandering(time[:5])) == 0.0
 
 
-@pytest.mark.parametrize(("factor", "words"), [
+@with_cases(
+    "factor, words",
     (-1.0, "the prediction of joint 2 has the opposite sign: measured is -1"),
-    *rotating((1.4, "the prediction of joint 2 is off by a factor: measured is 1.4"),
-             (57.29578, "off by a factor: measured is 57")),
-])  # fmt: skip
+    *rotating(
+        (1.4, "the prediction of joint 2 is off by a factor: measured is 1.4"),
+        (57.29578, "off by a factor: measured is 57"),
+    ),
+)
 def test_a_wrong_sign_or_scale_is_one_sentence(factor: float, words: str) -> None:
     p = prediction(rows=1500)
     measured = p.measured.copy()
@@ -203,8 +210,10 @@ def test_a_wrong_sign_or_scale_is_one_sentence(factor: float, words: str) -> Non
 
 
 def test_a_missing_effect_is_no_wrong_scale() -> None:
-    for defect in (lambda q, qd, qdd, tau, t: 3.0 * np.sign(qd),
-                   lambda q, qd, qdd, tau, t: 2.0 * qd):  # fmt: skip
+    for defect in (
+        lambda q, qd, qdd, tau, t: 3.0 * np.sign(qd),
+        lambda q, qd, qdd, tau, t: 2.0 * qd,
+    ):
         item = compare(prediction(defect, rows=1500)).joints[1]
         assert (
             item.scale is not None

@@ -13,17 +13,13 @@ from modeler.core.table import format_percent
 from modeler.numerics.spectra import compute_order_spectrum
 from modeler.numerics.splines import build_hat_functions, fit_nonparametric_baseline
 from modeler.regression.motion import compute_travel_since_reversal
+from modeler.validation import verdict
 from modeler.validation.comparison import JointComparison, compare
 from modeler.validation.prediction import FullRate, JointInfo, Motor, Prediction
-from modeler.validation.verdict import (
-    classify_residual,
-    find_best_pattern,
-    is_noise_like,
-    write_joint_verdict,
-)
 from modeler.views.comparison import build_comparison_page, draw_all_pictures
 from modeler.views.page import render_page
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
+from tests.texts import read_matrix
 
 
 def second_joint(defect: Defect | None, noise: float = NOISE, rows: int = 6000) -> JointComparison:
@@ -31,31 +27,29 @@ def second_joint(defect: Defect | None, noise: float = NOISE, rows: int = 6000) 
     return item
 
 
-@pytest.mark.parametrize(
-    ("coordinate", "defect"),
-    [
-        ("velocity", lambda q, qd, qdd, tau, t: 0.5 * qd),
-        ("direction", lambda q, qd, qdd, tau, t: 1.0 * np.sign(qd)),
-        ("time", lambda q, qd, qdd, tau, t: 0.06 * (t % 30.0 - 15.0)),
-        *rotating(
-            ("load", lambda q, qd, qdd, tau, t: 0.1 * np.abs(tau) * np.sign(qd)),
-            ("velocity", lambda q, qd, qdd, tau, t: 1.5 * np.sign(qd) * np.exp(-((qd / 0.4) ** 2))),
-            ("position", lambda q, qd, qdd, tau, t: 0.5 * q),
-            ("acceleration", lambda q, qd, qdd, tau, t: 0.2 * qdd),
-        ),
-    ],
+@with_cases(
+    "coordinate, defect",
+    ("velocity", lambda q, qd, qdd, tau, t: 0.5 * qd),
+    ("direction", lambda q, qd, qdd, tau, t: 1.0 * np.sign(qd)),
+    ("time", lambda q, qd, qdd, tau, t: 0.06 * (t % 30.0 - 15.0)),
+    *rotating(
+        ("load", lambda q, qd, qdd, tau, t: 0.1 * np.abs(tau) * np.sign(qd)),
+        ("velocity", lambda q, qd, qdd, tau, t: 1.5 * np.sign(qd) * np.exp(-((qd / 0.4) ** 2))),
+        ("position", lambda q, qd, qdd, tau, t: 0.5 * q),
+        ("acceleration", lambda q, qd, qdd, tau, t: 0.2 * qdd),
+    ),
 )
 def test_a_missing_effect_is_named_and_measured(coordinate: str, defect: Defect) -> None:
     p = prediction(defect)
     (item,) = compare(judged_alone(p)).joints
     missing = defect(p.q[:, 1], p.qd[:, 1], p.qdd[:, 1], p.predicted[:, 1], p.time)
     share = np.var(missing) / (np.var(missing) + NOISE**2)  # noise is independent of motion
-    found = find_best_pattern(item)
+    found = verdict.find_best_pattern(item)
     assert found is not None
     assert found[0].id == coordinate
     assert found[1] == pytest.approx(share, abs=0.08)
-    assert classify_residual(item) == "pattern"
-    assert "repeatable function of " + found[0].phrase in write_joint_verdict(item)
+    assert verdict.classify_residual(item) == "pattern"
+    assert "repeatable function of " + found[0].phrase in verdict.write_joint_verdict(item)
 
 
 def test_white_noise_has_no_structure() -> None:
@@ -64,9 +58,9 @@ def test_white_noise_has_no_structure() -> None:
         assert item.structure is not None and item.structure.own_motion < 0.01
         assert max(share for _, share in item.structure.shares) < 0.01
         assert max(share for _, share in item.structure.other_joints) < 0.01
-        assert is_noise_like(item)
-        assert "the residual looks like noise" in write_joint_verdict(item)
-        assert "ripple of" not in write_joint_verdict(item)
+        assert verdict.is_noise_like(item)
+        assert "the residual looks like noise" in verdict.write_joint_verdict(item)
+        assert "ripple of" not in verdict.write_joint_verdict(item)
 
 
 def coloured(memory: float, seed: int) -> np.ndarray:
@@ -82,8 +76,8 @@ def test_coloured_noise_is_neither_structure_nor_white(memory: float) -> None:
         item = second_joint(lambda q, qd, qdd, tau, t, s=seed: 3.0 * coloured(memory, s))
         assert item.structure is not None and item.spectrum is not None
         assert item.structure.own_motion < 0.05
-        assert not is_noise_like(item)
-        assert "yet it is not noise" in write_joint_verdict(item)
+        assert not verdict.is_noise_like(item)
+        assert "yet it is not noise" in verdict.write_joint_verdict(item)
         # exp(-t / memory) falls to 0.2 at 1.6 memories
         assert item.spectrum.correlation_time == pytest.approx(1.6 * memory, rel=0.35)
 
@@ -105,8 +99,8 @@ def test_an_oscillation_is_found_at_its_frequency() -> None:
     assert item.spectrum.peak == pytest.approx(11.0, abs=0.2)
     # sine of unit amplitude: power 1/2, beside the noise
     assert item.spectrum.peak_share == pytest.approx(0.5 / (0.5 + NOISE**2), abs=0.08)
-    assert "oscillates near 11 Hz" in write_joint_verdict(item)
-    assert classify_residual(item) == "other"
+    assert "oscillates near 11 Hz" in verdict.write_joint_verdict(item)
+    assert verdict.classify_residual(item) == "other"
 
 
 @pytest.mark.parametrize("share", [1.0, 0.6])
@@ -137,24 +131,22 @@ def test_nothing_is_correlated_across_segments() -> None:
 
 def test_long_logs_are_looked_at_sparsely_and_alike() -> None:
     item = second_joint(lambda q, qd, qdd, tau, t: 0.5 * qd, rows=60_000)
-    found = find_best_pattern(item)
+    found = verdict.find_best_pattern(item)
     assert found is not None and found[0].id == "velocity"
 
 
-@pytest.mark.parametrize(
-    ("defect", "noise", "rows", "words"),
-    [
-        (lambda q, qd, qdd, tau, t: np.full(t.size, -0.7), NOISE, 6000, "off by -0.7"),
-        (None, NOISE, 150, "too few samples (150) to show"),
-        (None, 0.0, 6000, "agree to rounding"),
-    ],
-)  # fmt: skip
+@with_cases(
+    "defect, noise, rows, words",
+    (lambda q, qd, qdd, tau, t: np.full(t.size, -0.7), NOISE, 6000, "off by -0.7"),
+    (None, NOISE, 150, "too few samples (150) to show"),
+    (None, 0.0, 6000, "agree to rounding"),
+)
 def test_what_else_is_said_of_a_residual(defect, noise: float, rows: int, words: str) -> None:
     item = second_joint(defect, noise, rows)
-    assert words in write_joint_verdict(item)
+    assert words in verdict.write_joint_verdict(item)
     assert (item.structure is None) == (rows == 150)
     if noise:
-        assert not is_noise_like(item)
+        assert not verdict.is_noise_like(item)
 
 
 def test_share_is_that_of_unseen_blocks() -> None:
@@ -212,11 +204,13 @@ def test_what_follows_the_travel_is_named() -> None:
     measured = p.measured.copy()
     measured[:, 1] += extra
     (item,) = compare(judged_alone(dataclasses.replace(p, measured=measured))).joints
-    found = find_best_pattern(item)
+    found = verdict.find_best_pattern(item)
     assert found is not None and found[0].id == "travel"
     known = float(np.var(extra))
     assert found[1] == pytest.approx(known / (known + NOISE**2), abs=0.08)
-    assert "repeatable function of travel since the last reversal" in write_joint_verdict(item)
+    assert "repeatable function of travel since the last reversal" in verdict.write_joint_verdict(
+        item
+    )
 
 
 def with_temperature(p: Prediction, slope: float) -> Prediction:
@@ -235,9 +229,13 @@ def test_friction_that_changes_with_temperature() -> None:
     assert share is not None
     known = float(np.var(0.15 * (p.temperature[:, 1] - 30.0)))
     assert share.get_share("temperature") == pytest.approx(known / (known + NOISE**2), abs=0.08)
-    assert "repeatable function of temperature" in write_joint_verdict(found.joints[1])
-    titles = [panel.title for picture in draw_all_pictures(found) for row in picture.panels
-              for panel in row]  # fmt: skip
+    assert "repeatable function of temperature" in verdict.write_joint_verdict(found.joints[1])
+    titles = [
+        panel.title
+        for picture in draw_all_pictures(found)
+        for row in picture.panels
+        for panel in row
+    ]
     assert sum(title.startswith("Temperature") for title in titles) == 3
     heat = draw_all_pictures(found)[0].panels[2][0].series[0]
     assert "temperature" in heat.columns
@@ -280,9 +278,9 @@ def test_a_known_order_is_found(unit: str, per: str, shown: float) -> None:
     assert line["amplitude"] == pytest.approx(0.6, rel=0.25)  # the sine dwells at its ends
     # 0.6^2 / 2 over that and the noise
     assert line["share"] == pytest.approx(0.18 / (0.18 + 0.25), abs=0.15)
-    assert f"waves per {per}, 0." in write_joint_verdict(found.joints[1])
-    assert classify_residual(found.joints[1]) == "pattern"
-    assert "ripple of" not in write_joint_verdict(found.joints[0])
+    assert f"waves per {per}, 0." in verdict.write_joint_verdict(found.joints[1])
+    assert verdict.classify_residual(found.joints[1]) == "pattern"
+    assert "ripple of" not in verdict.write_joint_verdict(found.joints[0])
     orders = draw_all_pictures(found)[4].panels[-1]
     panel = next(panel for panel in orders if panel.title.startswith("Order spectrum"))
     assert f"waves per {per}" in panel.title
@@ -309,14 +307,14 @@ def test_the_speed_of_a_motor_is_told_from_that_of_a_joint() -> None:
     (item,) = compare(judged_alone(coupled((Motor("2+3", (0.0, 1.0, 2.0)),)))).joints
     assert (
         "follows the velocity of the motor that turns with joints 2 and 3"
-        in write_joint_verdict(item)
+        in verdict.write_joint_verdict(item)
     )
     assert item.structure is not None
     assert dict(item.structure.motors)["2+3"] == pytest.approx(4.0 / 4.25, abs=0.06)
 
 
 def test_without_a_coupling_the_other_joint_is_named_and_where_to_write_one() -> None:
-    text = write_joint_verdict(compare(judged_alone(coupled(()))).joints[0])
+    text = verdict.write_joint_verdict(compare(judged_alone(coupled(()))).joints[0])
     assert "follows the velocity of joint 3 more than its own, as where one motor turns" in text
     assert "[coupling] in the robot file" in text
 
@@ -344,13 +342,16 @@ def test_errors_of_each_log() -> None:
 # Machado, Oliveira and Fernandes 2009, severity 1.0, for linear RGB.
 _SEEN = {
     "all": np.eye(3),
-    "protan": np.array([[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216],
-                        [-0.003882, -0.048116, 1.051998]]),
-    "deutan": np.array([[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413],
-                        [-0.011820, 0.042940, 0.968881]]),
-    "tritan": np.array([[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602],
-                        [0.004733, 0.691367, 0.303900]]),
-}  # fmt: skip
+    "protan": read_matrix("""
+            0.152286 1.052583 -0.204868; 0.114503 0.786281 0.099216; -0.003882 -0.048116 1.051998
+        """),
+    "deutan": read_matrix("""
+            0.367322 0.860646 -0.227968; 0.280085 0.672501 0.047413; -0.011820 0.042940 0.968881
+        """),
+    "tritan": read_matrix("""
+            1.255528 -0.076749 -0.178779; -0.078411 0.930809 0.147602; 0.004733 0.691367 0.303900
+        """),
+}
 
 
 def lab(colour: str, eye: str) -> np.ndarray:
@@ -358,8 +359,10 @@ def lab(colour: str, eye: str) -> np.ndarray:
     srgb = np.array([int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)])
     linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
     linear = np.clip(_SEEN[eye] @ linear, 0.0, 1.0)
-    to_xyz = np.array([[0.4124564, 0.3575761, 0.1804375], [0.2126729, 0.7151522, 0.0721750],
-                       [0.0193339, 0.1191920, 0.9503041]])  # fmt: skip
+    to_xyz = read_matrix("""
+            0.4124564 0.3575761 0.1804375; 0.2126729 0.7151522 0.0721750;
+            0.0193339 0.1191920 0.9503041
+        """)
     xyz = to_xyz @ linear / np.array([0.95047, 1.0, 1.08883])
     f = np.where(xyz > 216 / 24389, np.cbrt(xyz), (24389 / 27 * xyz + 16) / 116)
     return np.array([116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])])
@@ -368,8 +371,12 @@ def lab(colour: str, eye: str) -> np.ndarray:
 @pytest.mark.parametrize("eye", list(_SEEN))
 def test_colours_of_one_panel_are_told_apart_by_every_eye(eye: str) -> None:
     """A difference of 20 in L*a*b* is seen at a glance; just noticeable is about 2."""
-    together = [(BLUE, VERMILLION, SLATE), (BLUE, VERMILLION, GREY), (BLACK, ORANGE),
-                (BLUE, ORANGE)]  # fmt: skip
+    together = [
+        (BLUE, VERMILLION, SLATE),
+        (BLUE, VERMILLION, GREY),
+        (BLACK, ORANGE),
+        (BLUE, ORANGE),
+    ]
     for colours in together:
         for k, one in enumerate(colours):
             for other in colours[k + 1 :]:

@@ -17,6 +17,7 @@ from modeler.core.errors import BuildError, ManifestError
 from modeler.runtime.build import find_toolchain
 from modeler.runtime.model import load_folder, load_module
 from tests.modules import compiler, module, states
+from tests.rotation import with_cases
 
 
 @pytest.fixture
@@ -87,21 +88,21 @@ def test_own_flags_take_the_place_of_ours(cache, emps, monkeypatch):
     assert "-O3" in find_toolchain().flags
 
 
-@pytest.mark.parametrize(
-    ("words", "stays", "goes"),
-    [
-        ("-march=x86-64", "-O3", "-march=native"),
-        ("-mcpu=native", "-O3", "-march=native"),
-        ("-O1 -ffp-contract=off", "-fno-math-errno", "-ffp-contract=fast"),
-        ("-Os", "-fno-math-errno", "-O3"),
-        ("-ftree-slp-vectorize", "-ffp-contract=fast", "-fno-tree-slp-vectorize"),
-    ],
+@with_cases(
+    "words, stays, goes",
+    ("-march=x86-64", "-O3", "-march=native"),
+    ("-mcpu=native", "-O3", "-march=native"),
+    ("-O1 -ffp-contract=off", "-fno-math-errno", "-ffp-contract=fast"),
+    ("-Os", "-fno-math-errno", "-O3"),
+    ("-ftree-slp-vectorize", "-ffp-contract=fast", "-fno-tree-slp-vectorize"),
 )
 def test_flags_of_the_command_win(cache, emps, monkeypatch, words, stays, goes, tmp_path):
     real = compiler("gcc")
     wrapped = tmp_path / "any-cc"  # which takes flags of every processor
-    wrapped.write_text(f'#!/bin/sh\nfor w; do shift; case $w in -mcpu=*) ;; *) set -- "$@" "$w";; '
-                       f'esac; done\nexec {real} "$@"\n')  # fmt: skip
+    wrapped.write_text(
+        f'#!/bin/sh\nfor w; do shift; case $w in -mcpu=*) ;; *) set -- "$@" "$w";; '
+        f'esac; done\nexec {real} "$@"\n'
+    )
     wrapped.chmod(0o755)
     monkeypatch.delenv("CFLAGS", raising=False)
     monkeypatch.setenv("CC", f"{wrapped} {words}")
@@ -111,18 +112,18 @@ def test_flags_of_the_command_win(cache, emps, monkeypatch, words, stays, goes, 
         works(load_module(emps.spec, emps.files))
 
 
-@pytest.mark.parametrize(
-    ("variables", "says"),
-    [
-        ({"PATH": "{tmp}"}, "none of cc, gcc, clang is found; install one: Debian, Ubuntu `apt "
-                            "install gcc`, Fedora"),
-        ({"CFLAGS": "-O2 --no-such-flag"}, 'refuses CFLAGS="-O2 --no-such-flag" ('),
-        ({"CFLAGS": "-O2 'open"}, 'got CFLAGS="-O2 \'open" (No closing quotation)'),
-        ({"CC": "no-such-compiler -m64"}, 'got CC="no-such-compiler -m64", which is not found'),
-        ({"CC": "{tmp}/broken-cc"}, "broken-cc does not start"),
-        ({"MODELER_CACHE": "{tmp}/broken-cc"}, "; set MODELER_CACHE"),
-    ],
-)  # fmt: skip
+@with_cases(
+    "variables, says",
+    (
+        {"PATH": "{tmp}"},
+        "none of cc, gcc, clang is found; install one: Debian, Ubuntu `apt install gcc`, Fedora",
+    ),
+    ({"CFLAGS": "-O2 --no-such-flag"}, 'refuses CFLAGS="-O2 --no-such-flag" ('),
+    ({"CFLAGS": "-O2 'open"}, 'got CFLAGS="-O2 \'open" (No closing quotation)'),
+    ({"CC": "no-such-compiler -m64"}, 'got CC="no-such-compiler -m64", which is not found'),
+    ({"CC": "{tmp}/broken-cc"}, "broken-cc does not start"),
+    ({"MODELER_CACHE": "{tmp}/broken-cc"}, "; set MODELER_CACHE"),
+)
 def test_what_does_not_compile_is_named(cache, emps, monkeypatch, tmp_path, variables, says):
     broken = tmp_path / "broken-cc"
     broken.write_bytes(b"\x7fELF")
@@ -143,8 +144,11 @@ def test_the_compilers_own_words_are_quoted(cache, emps):
 
 
 def test_the_cache_is_where_the_environment_says(monkeypatch, tmp_path):
-    for name, below in (("HOME", ".cache/modeler"), ("XDG_CACHE_HOME", "modeler"),
-                        ("MODELER_CACHE", "")):  # fmt: skip
+    for name, below in (
+        ("HOME", ".cache/modeler"),
+        ("XDG_CACHE_HOME", "modeler"),
+        ("MODELER_CACHE", ""),
+    ):
         monkeypatch.delenv("MODELER_CACHE", raising=False)
         if name == "HOME":
             monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
@@ -157,13 +161,19 @@ def test_code_and_manifest_that_do_not_fit_are_refused(cache, emps):
     lacking = {**files, "emps.c": files["emps.c"].replace("emps_gravity", "emps_gravitas")}
     no_name = dataclasses.replace(functions[0], name="f(void); int x")
     for manifest, code, says in (
-        (dataclasses.replace(spec, title="another robot"), files,
-         "code answers .*one of them is older, generate both"),
+        (
+            dataclasses.replace(spec, title="another robot"),
+            files,
+            "code answers .*one of them is older, generate both",
+        ),
         (spec, lacking, "lacks what its manifest names"),
-        (dataclasses.replace(spec, functions=functions[1:]), files,
-         "code answers .*one of them is older, generate both"),
+        (
+            dataclasses.replace(spec, functions=functions[1:]),
+            files,
+            "code answers .*one of them is older, generate both",
+        ),
         (dataclasses.replace(spec, functions=(no_name, *functions)), files, "expected a C name"),
-    ):  # fmt: skip
+    ):
         with pytest.raises(ManifestError, match=says):
             load_module(manifest, code)
 

@@ -88,12 +88,16 @@ def test_of_no_samples_nothing_and_what_is_refused(gpu):
         (lambda: model.nonzeros(q, qd[:4], qdd), "different numbers of samples"),
         (lambda: model.gram(q, qd, qdd, q, use=np.ones((5, 2), bool)), r"use: got shape \(5, 2\)"),
         (lambda: model.nonzeros(nan, qd, qdd), "q: got values that are not finite"),
-        (lambda: model.nonzeros(on_device(q[:, :2]), qd, qdd),
-         r"q: got shape \(5, 2\), expected \(samples, 3\)"),
-        (lambda: model.nonzeros(q, qd, qdd, s=np.zeros((5, 1))),
-         "got s, but its effects read no signals; leave s out"),
+        (
+            lambda: model.nonzeros(on_device(q[:, :2]), qd, qdd),
+            r"q: got shape \(5, 2\), expected \(samples, 3\)",
+        ),
+        (
+            lambda: model.nonzeros(q, qd, qdd, s=np.zeros((5, 1))),
+            "got s, but its effects read no signals; leave s out",
+        ),
         (lambda: model.gram(q, qd, qdd, None), "tau: got no array of real numbers"),
-    ):  # fmt: skip
+    ):
         with pytest.raises(ShapeError, match=says):
             call()
 

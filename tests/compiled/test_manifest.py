@@ -10,21 +10,19 @@ from modeler.core.errors import ManifestError
 from modeler.core.manifest import FORMAT, parse_manifest
 from modeler.runtime.model import load_folder
 from tests.modules import module
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 
-@pytest.mark.parametrize(
-    ("text", "says"),
-    [
-        ("{", "x.json: is not JSON, or cut off"),
-        ('{"format": 1' + 10_000 * "0" + "}", "x.json: has a whole number of 10001 digits"),
-        (b"\xff\xfe{\x00", "x.json: is UTF-16, UTF-32 or binary"),
-        (json.dumps({"format": 1}), f"format 1, expected {FORMAT}; generate it again"),
-        (json.dumps({"format": ["x" * 9999]}), "format ['xxxxxx"),
-        ("[]", "x.json: not a manifest"),
-        ('{"robot": "wrist"}', "x.json: not a manifest"),
-        (json.dumps({"format": FORMAT, "robot": "wrist"}), "x.json: damaged manifest"),
-    ],
+@with_cases(
+    "text, says",
+    ("{", "x.json: is not JSON, or cut off"),
+    ('{"format": 1' + 10_000 * "0" + "}", "x.json: has a whole number of 10001 digits"),
+    (b"\xff\xfe{\x00", "x.json: is UTF-16, UTF-32 or binary"),
+    (json.dumps({"format": 1}), f"format 1, expected {FORMAT}; generate it again"),
+    (json.dumps({"format": ["x" * 9999]}), "format ['xxxxxx"),
+    ("[]", "x.json: not a manifest"),
+    ('{"robot": "wrist"}', "x.json: not a manifest"),
+    (json.dumps({"format": FORMAT, "robot": "wrist"}), "x.json: damaged manifest"),
 )
 def test_what_is_no_manifest_is_refused(text, says):
     with pytest.raises(ManifestError, match=re.escape(says)):
@@ -73,15 +71,13 @@ def test_every_entry_of_a_manifest_is_checked(value):
             assert parse_manifest(spec.to_json(), "y.json") == spec
 
 
-@pytest.mark.parametrize(
-    ("name", "content", "says"),
-    [
-        ("manifest.json", b"", "manifest.json: is empty; generate it again"),
-        ("manifest.json", b"PAR1\xff\x00", "manifest.json: is not valid UTF-8"),
-        ("manifest.json", b"[" * 100_000, "manifest.json: is nested too deep"),
-        ("emps.c", b"\xff\xfe\x00", "emps.c: no text; generate it again"),
-        ("emps_regressor.c", None, "emps: the module lacks emps_regressor.c; generate it again"),
-    ],
+@with_cases(
+    "name, content, says",
+    ("manifest.json", b"", "manifest.json: is empty; generate it again"),
+    ("manifest.json", b"PAR1\xff\x00", "manifest.json: is not valid UTF-8"),
+    ("manifest.json", b"[" * 100_000, "manifest.json: is nested too deep"),
+    ("emps.c", b"\xff\xfe\x00", "emps.c: no text; generate it again"),
+    ("emps_regressor.c", None, "emps: the module lacks emps_regressor.c; generate it again"),
 )
 def test_a_damaged_folder_says_which_file(tmp_path, name, content, says):
     write_emitted(module("emps").emitted, tmp_path)

@@ -8,6 +8,7 @@ import pytest
 
 from modeler.core.errors import ShapeError
 from tests.modules import plain, states
+from tests.rotation import with_cases
 
 
 @pytest.fixture(scope="module")
@@ -24,8 +25,12 @@ def test_results_have_the_shapes_that_are_promised(wrist):
         assert wrist.regressor(q, qd, qdd).shape == (n, 3, p)
         assert wrist.observation(q, qd, qdd).shape == (3 * n, c)
         assert wrist.inertia_matrix(q, beta).shape == (n, 3, 3)
-        for torque in (wrist.inverse_dynamics(q, qd, qdd, beta), wrist.gravity(q, beta),
-                       wrist.coriolis(q, qd, beta), wrist.friction(qd, beta)):  # fmt: skip
+        for torque in (
+            wrist.inverse_dynamics(q, qd, qdd, beta),
+            wrist.gravity(q, beta),
+            wrist.coriolis(q, qd, beta),
+            wrist.friction(qd, beta),
+        ):
             assert torque.shape == (n, 3)
         assert wrist.forward_kinematics(q).shape == (n, 3, 3, 4)
     assert wrist.base_parameters(np.ones(p)).shape == (c,)
@@ -51,21 +56,19 @@ def test_layout_and_type_of_inputs_do_not_matter_and_none_is_changed(wrist):
     np.testing.assert_array_equal(q, before)
 
 
-@pytest.mark.parametrize(
-    ("change", "says"),
-    [
-        (lambda q: q.T, "q: got shape (3, 8), expected (samples, 3); did you mean q.T?"),
-        (lambda q: q[0], "q: got shape (3,), expected (samples, 3); for one sample write q[None"),
-        (lambda q: q[:, :2], "q: got shape (8, 2), expected (samples, 3); one row per sample"),
-        (lambda q: q[:, 0], "q: got shape (8,), expected (samples, 3)"),
-        (lambda q: 1.0, "q: got shape (), expected (samples, 3)"),
-        (lambda q: q + 1j, "q: got no array of real numbers"),
-        (lambda q: [["a", "b", "c"]], "q: got no array of real numbers"),
-        (lambda q: [[1.0, 2.0, 3.0], [1.0]], "q: got no array of real numbers"),
-        (lambda q: np.where(np.arange(8)[:, None] == 5, np.nan, q), "q: got nan in row 5, column"),
-        (lambda q: np.where(q == q[7, 2], np.inf, q), "q: got inf in row 7, column 2"),
-        (lambda q: q[:4], "different numbers of samples (q 4, qd 8, qdd 8)"),
-    ],
+@with_cases(
+    "change, says",
+    (lambda q: q.T, "q: got shape (3, 8), expected (samples, 3); did you mean q.T?"),
+    (lambda q: q[0], "q: got shape (3,), expected (samples, 3); for one sample write q[None"),
+    (lambda q: q[:, :2], "q: got shape (8, 2), expected (samples, 3); one row per sample"),
+    (lambda q: q[:, 0], "q: got shape (8,), expected (samples, 3)"),
+    (lambda q: 1.0, "q: got shape (), expected (samples, 3)"),
+    (lambda q: q + 1j, "q: got no array of real numbers"),
+    (lambda q: [["a", "b", "c"]], "q: got no array of real numbers"),
+    (lambda q: [[1.0, 2.0, 3.0], [1.0]], "q: got no array of real numbers"),
+    (lambda q: np.where(np.arange(8)[:, None] == 5, np.nan, q), "q: got nan in row 5, column"),
+    (lambda q: np.where(q == q[7, 2], np.inf, q), "q: got inf in row 7, column 2"),
+    (lambda q: q[:4], "different numbers of samples (q 4, qd 8, qdd 8)"),
 )
 def test_a_wrong_array_is_refused_by_name(wrist, change, says):
     q, qd, qdd = states(3, 8)
@@ -126,9 +129,10 @@ def test_signals_that_no_effect_reads_are_refused(name):
     motion = dict.fromkeys(["base_regressor", "regressor", "observation"], (q, qd, qdd))
     motion |= {"nonzeros": (q, qd, qdd)} if spec.closure is None else {}
     calls = motion | {
-        "inverse_dynamics": (q, qd, qdd, beta), "friction": (qd, beta, q, qdd),
+        "inverse_dynamics": (q, qd, qdd, beta),
+        "friction": (qd, beta, q, qdd),
         "triangles": (q, qd, qdd, q),
-    }  # fmt: skip
+    }
     for function, given in calls.items():
         getattr(model, function)(*given, s=np.zeros((4, 0)))  # none at all
         with pytest.raises(ShapeError, match="got s, but its effects read no signals; leave s out"):

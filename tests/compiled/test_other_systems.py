@@ -20,6 +20,7 @@ from modeler.logs import parse_map_options
 from modeler.runtime.build import find_toolchain
 from modeler.runtime.model import load_module
 from tests.modules import compiler, module, states
+from tests.rotation import with_cases
 
 COMPILERS = Path(__file__).with_name("compilers")
 WINDOWS = COMPILERS / "windows"
@@ -72,8 +73,9 @@ def test_a_library_of_it_has_all_that_is_called(cl, robot) -> None:
     W = model.observation(q, qd, qdd)
     assert np.isfinite(W).all() and np.linalg.norm(W) > 1
     beta = np.random.default_rng(3).normal(size=W.shape[1])
-    np.testing.assert_allclose(model.inverse_dynamics(q, qd, qdd, beta).ravel(), W @ beta,
-                               rtol=1e-9, atol=1e-9)  # fmt: skip
+    np.testing.assert_allclose(
+        model.inverse_dynamics(q, qd, qdd, beta).ravel(), W @ beta, rtol=1e-9, atol=1e-9
+    )
     assert "/nologo /std:c11 /utf-8 /O2 /LD" in told.read_text().splitlines()
 
 
@@ -116,12 +118,12 @@ print(build.find_cache_folder().as_posix())
 """
 
 
-@pytest.mark.parametrize(
-    ("system", "says"),
-    [("linux", ".so True clang /u/.cache/modeler"),
-     ("darwin", ".dylib True clang /u/Library/Caches/modeler"),
-     ("win32", ".dll False cl C:/Users/u/AppData/Local/modeler")],
-)  # fmt: skip
+@with_cases(
+    "system, says",
+    ("linux", ".so True clang /u/.cache/modeler"),
+    ("darwin", ".dylib True clang /u/Library/Caches/modeler"),
+    ("win32", ".dll False cl C:/Users/u/AppData/Local/modeler"),
+)
 def test_names_and_places_of_each_system(system, says) -> None:
     local = {"LOCALAPPDATA": "C:/Users/u/AppData/Local"} if system == "win32" else {}
     environment = {"HOME": "/u", "PYTHONPATH": str(Path(build.__file__).parents[2]), **local}
@@ -151,11 +153,11 @@ def test_a_library_that_another_process_has_loaded_stays(tmp_path, monkeypatch) 
         build._build_entry(sources, tools, tmp_path / "cache", "key")
 
 
-@pytest.mark.parametrize(
-    ("place", "file", "span"),
-    [(r"C:\logs\run.csv@0:10", r"C:\logs\run.csv", (0.0, 10.0)),
-     (r"\\host\share\me@home\run.csv@5:", r"\\host\share\me@home\run.csv", (5.0, None))],
-)  # fmt: skip
+@with_cases(
+    "place, file, span",
+    (r"C:\logs\run.csv@0:10", r"C:\logs\run.csv", (0.0, 10.0)),
+    (r"\\host\share\me@home\run.csv@5:", r"\\host\share\me@home\run.csv", (5.0, None)),
+)
 def test_the_letter_of_a_drive_is_no_window_of_a_log_and_no_unit_of_a_map(place, file, span):
     assert parse_time_range(place) == (file, span)
     assert parse_time_range(r"C:\logs\run.csv") == (r"C:\logs\run.csv", None)
@@ -166,10 +168,14 @@ def test_the_letter_of_a_drive_is_no_window_of_a_log_and_no_unit_of_a_map(place,
 @pytest.mark.parametrize("letters", ["cp1252", "cp437"])
 def test_greek_letters_on_a_console_of_windows(letters) -> None:
     """What it has no letter for is shown as its code."""
-    command = [sys.executable, "-c", ""
-               "from modeler.cli.console import print_result, escape_unprintable\n"
-               "escape_unprintable()\n"
-               "print_result('\u03c3 \u03b8 \u03c4\u0308 \u2264 \u00b1')"]  # fmt: skip
+    command = [
+        sys.executable,
+        "-c",
+        ""
+        "from modeler.cli.console import print_result, escape_unprintable\n"
+        "escape_unprintable()\n"
+        "print_result('\u03c3 \u03b8 \u03c4\u0308 \u2264 \u00b1')",
+    ]
     environment = {**os.environ, "PYTHONIOENCODING": letters}
     ran = subprocess.run(command, capture_output=True, env=environment, check=True)
     assert b"\\u03b8" in ran.stdout or "\u03b8".encode(letters) in ran.stdout

@@ -2,7 +2,6 @@
 the others; robots, compilers and instruction sets side by side."""
 
 import subprocess
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,12 +12,11 @@ import modeler.runtime.fused as tiling
 from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.errors import LoopError, ManifestError, ShapeError
-from modeler.core.manifest import EmittedModule
 from modeler.runtime.bind import load_tile_library
 from modeler.runtime.model import CompiledModel, load_folder, load_module
 from tests.codegen.fitted_library import robot_module
 from tests.modules import STRICT, compiled, compiler, loaded, module, states, unoptimised
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, with_cases
 
 BOUND = 64 * np.finfo(float).eps  # of the largest entry of the sample: roundings in other places
 SAMPLES = 21
@@ -42,12 +40,13 @@ def assert_close(got: np.ndarray, expected: np.ndarray) -> None:
     assert (apart <= BOUND * np.abs(expected).max(axis=1, initial=1)).all()
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "name",
-    ["emps", *(pytest.param(n, marks=pytest.mark.digits) for n in ("wrist", "slow-arm")),
-     pytest.param("scara", marks=pytest.mark.rotating),
-     *(pytest.param(n, marks=ROTATING) for n in ("sr400-tree", "tx40", "dvrk-psm"))],
-)  # fmt: skip
+    "emps",
+    *(pytest.param(n, marks=pytest.mark.digits) for n in ("wrist", "slow-arm")),
+    pytest.param("scara", marks=pytest.mark.rotating),
+    *(pytest.param(n, marks=ROTATING) for n in ("sr400-tree", "tx40", "dvrk-psm")),
+)
 def test_a_tile_has_the_values_of_the_scalar_functions(name, monkeypatch):
     """Effects that read signals have tiles, too."""
     model = loaded(robot_module(name).emitted) if name == "slow-arm" else compiled(name)
@@ -123,9 +122,7 @@ def test_far_angles_and_values_that_are_no_numbers_stay_in_their_lane(monkeypatc
             )
 
 
-def compiled_check(
-    emitted: EmittedModule, folder: Path, *words: str, units: Sequence[str] = ()
-) -> bool:
+def compiled_check(emitted, folder, *words, units=()):
     """Whether tiles of every instruction set have the values of the scalar function."""
     prefix = emitted.spec.prefix
     text = Path(__file__).with_name("check_tiles.c").read_text()
@@ -144,11 +141,21 @@ SANITIZED = ["-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 FAST = ["-O2", "-ffp-contract=fast"]
 FLAGS = [
     *(("gcc", ["-O0"]), ("clang", ["-DMODELER_PLAIN"])),
-    *(pytest.param(cc, flags, marks=pytest.mark.rotating) for cc, flags in
-      (("clang", ["-O0"]), ("gcc", ["-DMODELER_PLAIN"]), ("gcc", FAST), ("clang", FAST))),
-    *(pytest.param(cc, [*SANITIZED, *flags], marks=pytest.mark.slow)
-      for cc in ("gcc", "clang") for flags in (["-O0"], ["-O2", "-march=native"])),
-]  # fmt: skip
+    *(
+        pytest.param(cc, flags, marks=pytest.mark.rotating)
+        for cc, flags in (
+            ("clang", ["-O0"]),
+            ("gcc", ["-DMODELER_PLAIN"]),
+            ("gcc", FAST),
+            ("clang", FAST),
+        )
+    ),
+    *(
+        pytest.param(cc, [*SANITIZED, *flags], marks=pytest.mark.slow)
+        for cc in ("gcc", "clang")
+        for flags in (["-O0"], ["-O2", "-march=native"])
+    ),
+]
 
 
 @pytest.mark.parametrize(("cc", "flags"), FLAGS)
@@ -163,14 +170,14 @@ def test_robots_with_loops_have_no_entries_of_their_own_and_say_so():
         model.nonzeros(q, 0 * q, 0 * q)
 
 
-@pytest.mark.parametrize(
-    ("name", "plain"),
-    [
-        pytest.param("five-bar", False, marks=pytest.mark.digits),
-        *(pytest.param(*case, marks=pytest.mark.rotating) for case in
-          (("five-bar", True), ("3rrr", False))),
-    ],
-)  # fmt: skip
+@with_cases(
+    "name, plain",
+    pytest.param("five-bar", False, marks=pytest.mark.digits),
+    *(
+        pytest.param(*case, marks=pytest.mark.rotating)
+        for case in (("five-bar", True), ("3rrr", False))
+    ),
+)
 def test_loops_closed_side_by_side_are_those_closed_one_by_one(name, plain):
     """Fast and slow, at rest, with leaps, out of reach and back, with values that are none."""
     model = compiled(name)

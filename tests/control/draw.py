@@ -6,7 +6,6 @@ import numpy as np
 
 from modeler.api.workflow import load
 from modeler.codegen import Control, derive, generate
-from modeler.core.manifest import EmittedModule
 from modeler.robot import Robot, parse_robot_text
 
 
@@ -21,11 +20,23 @@ def drawn(seed: int, tree: bool = False) -> Robot:
         variable, number = f"{sign}q{j} + {rng.normal():.3f}", f"{rng.normal():.3f}"
         turn, along = ("pi/2", f"{rng.uniform(-3, 3):.3f}", 0), rng.normal(0, 0.3, 2).round(3)
         alpha, gamma = rng.choice(np.array(turn, dtype=object), 2)
-        cells = [str(j), before, int(j < n or not tied), int(slides), gamma, along[0],
-                 alpha, along[1],
-                 number if slides else variable, variable if slides else number]  # fmt: skip
-        rows.append("[" + ", ".join(f'"{cell}"' if isinstance(cell, str) else str(cell)
-                                    for cell in cells) + "]")  # fmt: skip
+        cells = [
+            str(j),
+            before,
+            int(j < n or not tied),
+            int(slides),
+            gamma,
+            along[0],
+            alpha,
+            along[1],
+            number if slides else variable,
+            variable if slides else number,
+        ]
+        rows.append(
+            "["
+            + ", ".join(f'"{cell}"' if isinstance(cell, str) else str(cell) for cell in cells)
+            + "]"
+        )
         carriers.append(str(j))
     relation = f'[relations]\nq{n} = "q1/2 - q2"\n' if tied else ""
     return parse_robot_text(
@@ -52,9 +63,7 @@ yaw = 1.1
 
 
 @cache
-def emitted(
-    robot: str | int, tree: bool = False, single: bool = False
-) -> tuple[Robot, EmittedModule]:
+def emitted(robot, tree=False, single=False):
     """A built-in robot by its name, a drawn one by its seed, with the unit for controllers."""
     found = load(robot) if isinstance(robot, str) else drawn(robot, tree)
     names = (found.joints[0].name,)

@@ -2,15 +2,13 @@
 
 import ctypes
 import subprocess
-from pathlib import Path
 
 import numpy as np
 
-from modeler.codegen import Control, Derivation
 from modeler.codegen.workflow import generate
+from modeler.core.manifest import FittedParameter, FittedSpec
 from modeler.robot.robot import Robot
 from tests.bodies import buildable
-from tests.codegen.fitted_library import FittedParameter, FittedSpec
 from tests.oracles.complex_step import Oracle
 
 STATE = 1 << 20  # bytes, more than any state takes
@@ -31,10 +29,7 @@ class Folder:
         roles: {name without the robot's: what the manifest says}.
     """
 
-    def __init__(
-        self, derivation: Derivation, folder: Path, single: bool = False, seed: int = 1,
-        control: Control | None = None,
-    ) -> None:  # fmt: skip
+    def __init__(self, derivation, folder, single=False, seed=1, control=None):
         self.robot: Robot = derivation.robot
         precision = "single" if single else "double"
         bare = generate(derivation, precision=precision).spec
@@ -54,13 +49,14 @@ class Folder:
                 row, counted = base.column_of[3:], weights
                 self.oracle.constant[row] = sum(t.value * self.chi[t.parameter] for t in counted)
             else:
-                self.oracle.constant |= {
-                    t.parameter[3:]: -self.chi[t.parameter] for t in offsets
-                }  # fmt: skip
+                self.oracle.constant |= {t.parameter[3:]: -self.chi[t.parameter] for t in offsets}
         made = generate(
-            derivation, folder, fitted=with_values(bare, self.beta), precision=precision,
+            derivation,
+            folder,
+            fitted=with_values(bare, self.beta),
+            precision=precision,
             control=control,
-        )  # fmt: skip
+        )
         self.spec = made.spec
         self.number = np.float32 if single else np.float64
         start = len(self.spec.prefix) + 1

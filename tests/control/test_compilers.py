@@ -7,7 +7,7 @@ import pytest
 
 from tests.control.emitted_folder import Folder
 from tests.control.test_every_function import derivation
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, with_cases
 
 STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Wundef", "-Werror"]
 ALIGNED = {"gcc": "-Wcast-align=strict", "clang": "-Wcast-align"}
@@ -15,15 +15,16 @@ MORE = ("tree 1", "five-bar")
 
 
 @pytest.mark.rotating("long tests of control")
-@pytest.mark.parametrize(
-    ("name", "single", "compilers"),
-    [
-        ("two-link", False, ["gcc"]),
-        pytest.param("two-link", True, ["gcc", "clang"], marks=ROTATING),
-        *(pytest.param(name, single, ["gcc", "clang"], marks=ROTATING)
-          for name in MORE for single in (False, True)),
-    ],
-)  # fmt: skip
+@with_cases(
+    "name, single, compilers",
+    ("two-link", False, ["gcc"]),
+    pytest.param("two-link", True, ["gcc", "clang"], marks=ROTATING),
+    *(
+        pytest.param(name, single, ["gcc", "clang"], marks=ROTATING)
+        for name in MORE
+        for single in (False, True)
+    ),
+)
 def test_no_compiler_warns(name, single, compilers, tmp_path):
     made = Folder(derivation(name), tmp_path, single)
     sources = [str(p.relative_to(tmp_path)) for p in tmp_path.glob("**/*.c")]
@@ -42,8 +43,11 @@ def test_sanitizers_find_nothing(name, tmp_path):
     words = ["-std=c99", "-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
     probe = subprocess.run(
         ["gcc", *words, "-x", "c", "-", "-o", str(tmp_path / "probe")],
-        input="int main(void) { return 0; }\n", text=True, capture_output=True, check=False,
-    )  # fmt: skip
+        input="int main(void) { return 0; }\n",
+        text=True,
+        capture_output=True,
+        check=False,
+    )
     if probe.returncode:
         pytest.skip("NOT CHECKED: gcc has no sanitizers here")
     made.command("gcc", *words, "-I.", "programs/self_check.c", *made.sources, "-lm", "-o", "check")

@@ -43,27 +43,35 @@ def test_functions_are_those_of_pinocchio(name, tree):
         error = np.abs(got.reshape(wanted.shape) - wanted).max()
         assert error <= bound * max(np.abs(wanted).max(), 1.0), (robot.name, role, error)
 
-    for role in ("inertia_matrix", "coriolis_matrix", "coriolis_transpose", "momentum",
-                 "derivatives"):  # fmt: skip
+    for role in "inertia_matrix coriolis_matrix coriolis_transpose momentum derivatives".split():
         close(ours(role), role)
     for role in ("forward_dynamics", "forward_derivatives"):
         close(ours(role), role, 1e-9)
     for damping in (0.1, 0.0) if len(spec.joints) == 6 else (0.1,):
         x["damping"] = [damping]
-        each = [PinocchioDynamics.operational(t["inertia_matrix"], t[f"jacobian {end}"], damping)
-                for t in theirs]  # fmt: skip
+        each = [
+            PinocchioDynamics.operational(t["inertia_matrix"], t[f"jacobian {end}"], damping)
+            for t in theirs
+        ]
         expected |= {role: np.array([one[role] for one in each]) for role in each[0]}
         for role in each[0]:
             close(ours(role), role, 1e-8)
-    for role, of in (("slotine_li_regressor", "slotine_li"), ("momentum_regressor", "momentum"),
-                     ("momentum_rest_regressor", "momentum_rest")):  # fmt: skip
+    for role, of in (
+        ("slotine_li_regressor", "slotine_li"),
+        ("momentum_regressor", "momentum"),
+        ("momentum_rest_regressor", "momentum_rest"),
+    ):
         close(ours(role) @ beta, of)
     # An offset may group with gravity, so energy and losses are compared by the power balance.
     h = 1e-4
     ahead, behind = (
-        model.evaluate("energy_regressor", q=x["q"] + step * x["qd"] + step**2 / 2 * x["qdd"],
-                       qd=x["qd"] + step * x["qdd"]) for step in (h, -h)
-    )  # fmt: skip
+        model.evaluate(
+            "energy_regressor",
+            q=x["q"] + step * x["qd"] + step**2 / 2 * x["qdd"],
+            qd=x["qd"] + step * x["qdd"],
+        )
+        for step in (h, -h)
+    )
     power = ((ahead - behind) / (2 * h) + ours("power_regressor")) @ beta
     error = np.abs(power.ravel() - expected["power"]).max()
     assert error <= 1e-6 * np.abs(expected["power"]).max()

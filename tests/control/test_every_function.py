@@ -15,11 +15,18 @@ from tests.control import draw
 from tests.control.emitted_folder import Folder
 from tests.oracles.complex_step import Oracle
 
-LOOPS = ("five-bar", "3rrr", "delta", "stewart", "sr400", "orthoglide-2003",
-         "orthoglide-2012", "evra", "orthoglide-leg", "dvrk-psm", "wrist-coupled")  # fmt: skip
+LOOPS = tuple(
+    """
+    five-bar 3rrr delta stewart sr400 orthoglide-2003 orthoglide-2012 evra orthoglide-leg dvrk-psm
+    wrist-coupled
+""".split()
+)
 TREES = ("sr400-tree", "orthoglide-leg-tree", *(f"tree {k}" for k in range(4)))
-CHAINS = ("puma560", "panda", "ur10e", "wrist", "rx90", "scara", "lwr", "kinova_gen3", "tx40",
-          "so101", "vx300s", "two-link", "chain 0", "chain 1")  # fmt: skip
+CHAINS = (
+    *"puma560 panda ur10e wrist rx90 scara lwr kinova_gen3 tx40 so101 vx300s two-link".split(),
+    "chain 0",
+    "chain 1",
+)
 
 SOLVED = 1e-9  # of what equations are solved for, or loops are
 EXACT = 1e-11
@@ -121,11 +128,12 @@ def expected(o: Oracle, folder: Folder, s: State) -> dict[str, tuple]:
         "operational_inverse": (o.operational_inverse(u, DAMPING), SOLVED),
         "coupling": (o.G(u)[0], SOLVED),
         "coupling_rate": (
-            np.einsum("kfn,k->fn", o.slopes(o.G, u), qd) if o.solved else None, SOLVED,
+            np.einsum("kfn,k->fn", o.slopes(o.G, u), qd) if o.solved else None,
+            SOLVED,
         ),
         "close": (u, SOLVED),
         "close_from": (u, SOLVED),
-    }  # fmt: skip
+    }
     for end, name in named(folder).items():
         found[f"pose_{end}"] = (o.pose(u, name), exact)
         found[f"jacobian_{end}"] = (o.jacobian(u, name), exact)
@@ -182,8 +190,14 @@ def checked(folder: Folder, samples: int, seed: int, wide: float = 1.0) -> dict[
     for s in states(folder, samples, seed, wide):
         wanted = expected(o, folder, s)
         tau = o.torques(s.u, s.qd, s.qdd)[0]
-        given = {**s._asdict(), "beta": beta, "tau": tau, "damping": [DAMPING],
-                 "start": home_of(folder), "widths": widths(folder)}  # fmt: skip
+        given = {
+            **s._asdict(),
+            "beta": beta,
+            "tau": tau,
+            "damping": [DAMPING],
+            "start": home_of(folder),
+            "widths": widths(folder),
+        }
         state = None
         if folder.has("state"):
             status, state = folder.state(s.q, s.qd)
@@ -302,10 +316,18 @@ def everything(made: Folder, s: State) -> dict[str, np.ndarray]:
     """All inputs of all functions at a good state."""
     o, closure = made.oracle, made.spec.closure
     x = s.u[list(closure.platform or ())] if closure else s.u[:0]
-    return {**s._asdict(), "beta": made.beta, "tau": o.torques(s.u, s.qd, s.qdd)[0],
-            "damping": np.array([DAMPING]), "start": home_of(made), "widths": widths(made),
-            "chi": np.array(list(made.chi.values())), "x": x, "xd": 0 * x + 1, "xdd": 0 * x + 1,
-            }  # fmt: skip
+    return {
+        **s._asdict(),
+        "beta": made.beta,
+        "tau": o.torques(s.u, s.qd, s.qdd)[0],
+        "damping": np.array([DAMPING]),
+        "start": home_of(made),
+        "widths": widths(made),
+        "chi": np.array(list(made.chi.values())),
+        "x": x,
+        "xd": 0 * x + 1,
+        "xdd": 0 * x + 1,
+    }
 
 
 @pytest.mark.parametrize("factor", [0.0, -1.0])
@@ -315,8 +337,12 @@ def test_an_inertia_that_is_none_is_told(folder, name, factor):
     made = folder(name)
     s = next(states(made, 1, 35))
     none = everything(made, s) | {"beta": factor * made.beta}
-    roles = {"forward_dynamics", "forward_derivatives", "operational_inertia",
-             "operational_inverse"} & made.roles.keys()  # fmt: skip
+    roles = {
+        "forward_dynamics",
+        "forward_derivatives",
+        "operational_inertia",
+        "operational_inverse",
+    } & made.roles.keys()
     assert "forward_dynamics" in roles
     for role in roles:
         status, out = made.call(role, **none)

@@ -12,15 +12,19 @@ from modeler.robot import parse_robot_text, replace_effects
 from tests.control.draw import emitted
 from tests.elementary_motions import frames, shift, turn
 from tests.modules import loaded
+from tests.rotation import with_cases
+from tests.texts import read_pairs
 
 
 def test_derivatives_go_through_friction_that_reads_loads_and_powers():
     effects = {
-        "viscous": "all", "load_friction": [{"joint": "1", "w": 0.0}],
+        "viscous": "all",
+        "load_friction": [{"joint": "1", "w": 0.0}],
         "nonlinear_viscous": [{"joint": "2", "p": 0.5}],
         "spring": [{"joint": "2", "q0": 0.5, "h": 0.1}],
-        "stribeck": [{"joint": "1", "vs": 0.6, "d": 1.5}], "rotor_inertia": "all",
-    }  # fmt: skip
+        "stribeck": [{"joint": "1", "vs": 0.6, "d": 1.5}],
+        "rotor_inertia": "all",
+    }
     text = load("two-link").text + "\n[reference]\n"
     text += "".join(f"{p} = {x}\n" for p, x in (("M1", 3), ("M2", 2), ("MX2", 0.4), ("ZZ2", 0.2)))
     robot = parse_robot_text(replace_effects(text, effects), "lossy")
@@ -63,13 +67,11 @@ def test_links_of_frames_have_their_jacobians():
     assert model.evaluate("jacobian_1", q=q).shape == (1, 6, 2)
 
 
-@pytest.mark.parametrize(
-    ("names", "told"),
-    [
-        (["hand"], 'frame "hand": two-link has none of that name; expected hand-1, hand_1, 1, 2'),
-        (["base"], 'frame "base": two-link has none of that name; expected hand-1'),
-        (["hand-1", "hand_1"], 'frame "hand_1": functions of another frame or role end in _hand_1'),
-    ],
+@with_cases(
+    "names, told",
+    (["hand"], 'frame "hand": two-link has none of that name; expected hand-1, hand_1, 1, 2'),
+    (["base"], 'frame "base": two-link has none of that name; expected hand-1'),
+    (["hand-1", "hand_1"], 'frame "hand_1": functions of another frame or role end in _hand_1'),
 )
 def test_frames_that_cannot_be_are_told(names, told):
     found = derive(parse_robot_text(load("two-link").text + FRAMES, "hands"))
@@ -83,11 +85,11 @@ def test_the_command_line_asks_for_frames(tmp_path):
     assert "scara_jacobian_dot_qd_2(" in (tmp_path / "c" / "scara_control.h").read_text()
 
 
-MOST = {  # additions and multiplications of the functions for controllers, as they are
-    "coriolis_matrix": 1110, "coriolis_transpose": 275, "momentum": 274, "derivatives": 3546,
-    "slotine_li_regressor": 782, "momentum_regressor": 388, "momentum_rest_regressor": 474,
-    "jacobian": 74, "jacobian_dot_qd": 155,
-}  # fmt: skip
+MOST = read_pairs("""
+    coriolis_matrix 1110 coriolis_transpose 275 momentum 274 derivatives 3546
+    slotine_li_regressor 782 momentum_regressor 388 momentum_rest_regressor 474 jacobian 74
+    jacobian_dot_qd 155
+""")
 
 
 def test_functions_need_no_more_operations_than_were_reached():

@@ -10,13 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from modeler.core import files
 from modeler.core.errors import ModelerError
-from modeler.core.files import (
-    check_folder_writable,
-    check_writable,
-    resolve_destination,
-    write_atomically,
-)
+from tests.rotation import with_cases
 
 
 def mode(path: Path) -> int:
@@ -28,7 +24,7 @@ def everything(folder: Path) -> list[str]:
 
 
 def refused_by_both(path: Path, says: str) -> None:
-    for call in (lambda: write_atomically(path, "x"), lambda: check_writable(path)):
+    for call in (lambda: files.write_atomically(path, "x"), lambda: files.check_writable(path)):
         with pytest.raises(ModelerError, match=says):
             call()
 
@@ -37,7 +33,7 @@ def refused_by_both(path: Path, says: str) -> None:
 def test_a_new_file_respects_the_umask(tmp_path: Path, mask: int) -> None:
     before = os.umask(mask)
     try:
-        write_atomically(tmp_path / "new.json", "{}")
+        files.write_atomically(tmp_path / "new.json", "{}")
     finally:
         os.umask(before)
     assert mode(tmp_path / "new.json") == 0o666 & ~mask
@@ -48,18 +44,18 @@ def test_a_file_keeps_its_permissions(tmp_path: Path, permissions: int) -> None:
     path = tmp_path / "secret.json"
     path.write_text("old")
     path.chmod(permissions)
-    write_atomically(path, "new")
+    files.write_atomically(path, "new")
     assert (path.read_text(), mode(path)) == ("new", permissions)
     assert everything(tmp_path) == ["secret.json"]
 
 
 def test_a_name_may_be_as_long_as_the_system_allows(tmp_path: Path) -> None:
     path = tmp_path / ("n" * os.pathconf(tmp_path, "PC_NAME_MAX"))
-    check_writable(path)
-    write_atomically(path, "text")
+    files.check_writable(path)
+    files.write_atomically(path, "text")
     assert path.read_text() == "text"
     with pytest.raises(ModelerError, match="cannot be written"):
-        check_writable(tmp_path / ("n" * 5000))
+        files.check_writable(tmp_path / ("n" * 5000))
 
 
 def test_links_stay_and_what_they_name_is_written(tmp_path: Path) -> None:
@@ -70,22 +66,20 @@ def test_links_stay_and_what_they_name_is_written(tmp_path: Path) -> None:
     (tmp_path / "first").symlink_to("real/target.json")
     (tmp_path / "second").symlink_to("first")
     inode = target.stat().st_ino
-    check_writable(tmp_path / "second")
-    write_atomically(tmp_path / "second", "new")
+    files.check_writable(tmp_path / "second")
+    files.write_atomically(tmp_path / "second", "new")
     assert (tmp_path / "first").is_symlink() and (tmp_path / "second").is_symlink()
     assert (target.read_text(), mode(target)) == ("new", 0o600)
     assert target.stat().st_ino != inode  # replaced at once, not written over
     assert everything(tmp_path / "real") == ["target.json"]
 
 
-def test_a_link_to_nothing_makes_what_it_names_and_links_in_a_circle_are_refused(
-    tmp_path: Path,
-) -> None:
+def test_a_link_to_nothing_makes_what_it_names_and_links_in_a_circle_are_refused(tmp_path):
     for name, leads_to in (("link", "made/here.json"), ("a", "b"), ("b", "a")):
         (tmp_path / name).symlink_to(leads_to)
-    check_writable(tmp_path / "link")
+    files.check_writable(tmp_path / "link")
     assert not (tmp_path / "made").exists()
-    write_atomically(tmp_path / "link", "text")
+    files.write_atomically(tmp_path / "link", "text")
     assert (tmp_path / "made" / "here.json").read_text() == "text"
     refused_by_both(tmp_path / "a", "a: cannot be written")
     assert all((tmp_path / name).is_symlink() for name in ("link", "a", "b"))
@@ -99,12 +93,12 @@ def test_a_pipe_is_written_to(tmp_path: Path, linked: bool) -> None:
     if linked:
         place = tmp_path / "link"
         place.symlink_to(pipe)
-    check_writable(place)  # does not wait for a reader
+    files.check_writable(place)  # does not wait for a reader
     read: list[bytes] = []
     reader = threading.Thread(target=lambda: read.append(pipe.read_bytes()))
     reader.start()
     data = bytes(range(256)) * 1000  # more than a pipe holds
-    write_atomically(place, data)
+    files.write_atomically(place, data)
     reader.join(20)
     assert read == [data]
     assert stat.S_ISFIFO(pipe.lstat().st_mode)
@@ -115,11 +109,11 @@ def test_a_device_is_written_to(tmp_path: Path) -> None:
     ours, theirs = os.openpty()
     device = Path(os.ttyname(theirs))
     (tmp_path / "tty").symlink_to(device)
-    check_writable(tmp_path / "tty")
-    write_atomically(tmp_path / "tty", "words\n")
+    files.check_writable(tmp_path / "tty")
+    files.write_atomically(tmp_path / "tty", "words\n")
     assert os.read(ours, 100).split() == [b"words"]
     assert stat.S_ISCHR(device.stat().st_mode) and (tmp_path / "tty").is_symlink()
-    assert resolve_destination(device).identity is None
+    assert files.resolve_destination(device).identity is None
     os.close(ours)
     os.close(theirs)
 
@@ -148,18 +142,18 @@ def test_a_write_protected_file_stays_and_what_fails_midway_leaves_the_old_file(
 
     with monkeypatch.context() as patch, pytest.raises(ModelerError, match="No space left on dev"):
         patch.setattr(os, "write", full)
-        write_atomically(path, "new")
+        files.write_atomically(path, "new")
     assert path.read_text() == "old" and everything(tmp_path) == ["file.json"]
 
 
 def test_folders_are_tried_and_left_as_they_were(tmp_path: Path, monkeypatch) -> None:
     (tmp_path / "plain").write_text("a file")
     for _ in range(2):  # with files that have no name, and where the system has none
-        check_folder_writable(tmp_path / "new" / "folder")
-        check_folder_writable(tmp_path)
+        files.check_folder_writable(tmp_path / "new" / "folder")
+        files.check_folder_writable(tmp_path)
         for place in (tmp_path / "plain", tmp_path / "plain" / "below"):
             with pytest.raises(ModelerError, match="cannot be written"):
-                check_folder_writable(place)
+                files.check_folder_writable(place)
         monkeypatch.delattr(os, "O_TMPFILE", raising=False)
     assert everything(tmp_path) == ["plain"]
 
@@ -175,11 +169,12 @@ print("after")
 """
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "name",
-    ["/dev/stdout", "link", *(pytest.param(f"/{place}/fd/1", marks=pytest.mark.rotating)
-                              for place in ("dev", "proc/self"))],
-)  # fmt: skip
+    "/dev/stdout",
+    "link",
+    *(pytest.param(f"/{place}/fd/1", marks=pytest.mark.rotating) for place in ("dev", "proc/self")),
+)
 @pytest.mark.parametrize("into", ["pipe", "file"])
 def test_our_own_stdout_is_written_to_in_order(tmp_path: Path, name: str, into: str) -> None:
     (tmp_path / "link").symlink_to("/dev/stdout")
@@ -204,14 +199,14 @@ def test_a_closed_or_read_only_descriptor_is_told(tmp_path: Path) -> None:
     with path.open() as stream:
         place = Path(f"/dev/fd/{stream.fileno()}")
         with pytest.raises(ModelerError, match="open for reading only"):
-            check_writable(place)
+            files.check_writable(place)
         with pytest.raises(ModelerError, match="cannot be written"):
-            write_atomically(place, "x")
+            files.write_atomically(place, "x")
     with pytest.raises(ModelerError, match="cannot be written"):
-        check_writable(place)
+        files.check_writable(place)
     assert path.read_text() == "text"
 
 
 def test_names_that_are_no_text_are_written_escaped(tmp_path: Path) -> None:
-    write_atomically(tmp_path / "page.html", "log \udcff.csv")
+    files.write_atomically(tmp_path / "page.html", "log \udcff.csv")
     assert (tmp_path / "page.html").read_text() == "log \\udcff.csv"

@@ -22,9 +22,13 @@ def test_what_is_not_finite_is_null_and_all_else_as_it_was(tmp_path):
     run_command(argparse.Namespace(json=str(place), command="robots"), lambda args: raw)
     assert json.loads(place.read_text()) == {
         "schema": "urn:modeler:schema:robots:1",
-        "a": [1.5, None, [0.0, None]], "b": {"c": None, "d": "nan"},
-        "e": [[1.0, None]], "f": 3, "g": True, "h": None,
-    }  # fmt: skip
+        "a": [1.5, None, [0.0, None]],
+        "b": {"c": None, "d": "nan"},
+        "e": [[1.0, None]],
+        "f": 3,
+        "g": True,
+        "h": None,
+    }
 
 
 @pytest.fixture(scope="module")

@@ -76,9 +76,13 @@ def test_numbers_stand_at_the_last_line() -> None:
 def test_names_and_texts() -> None:
     """No text has a sign that TeX reads."""
     for name, expected in (
-        ("omega_1", r"\mathit{omega\_1}"), ("omega1", r"\omega_{1}"), ("Omega", r"\Omega"),
-        ("Alpha", r"\mathit{Alpha}"), ("PHI2", r"\mathit{PHI}_{2}"), ("mu2_3", r"\mu_{2\_3}"),
-    ):  # fmt: skip
+        ("omega_1", r"\mathit{omega\_1}"),
+        ("omega1", r"\omega_{1}"),
+        ("Omega", r"\Omega"),
+        ("Alpha", r"\mathit{Alpha}"),
+        ("PHI2", r"\mathit{PHI}_{2}"),
+        ("mu2_3", r"\mu_{2\_3}"),
+    ):
         assert format_latex_name(name) == expected
     assert escape_latex("R&D_1 100 % {a} ~ \\ é") == (
         r"R\&D\_1 100 \% \{a\} \textasciitilde{} \textbackslash{} é"

@@ -18,10 +18,11 @@ CPUS = {
 }
 """Floating-point unit, and the machine of qemu that has it: that of the M4 knows no double."""
 
-STRICT = (
-    "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror",
-    "-Wdouble-promotion", "-Wfloat-conversion",
-)  # fmt: skip
+STRICT = tuple(
+    """
+    -std=c99 -Wall -Wextra -Wpedantic -Wshadow -Werror -Wdouble-promotion -Wfloat-conversion
+""".split()
+)
 
 
 def tool(name: str) -> str:
@@ -64,12 +65,7 @@ def section_bytes(path: Path, *parts: str) -> int:
     return sum(int(row[1]) for row in rows if any(part in row[0] for part in parts))
 
 
-def run(
-    emitted: EmittedModule,
-    folder: Path,
-    cpu: str,
-    calls: Sequence[tuple[FunctionSpec, Mapping[str, np.ndarray]]],
-) -> list[np.ndarray]:
+def run(emitted, folder, cpu, calls):
     """Outputs, (n, ...), of functions on that processor; inputs are (n, length)."""
     objects = library(emitted, folder, cpu)
     number = "float" if emitted.spec.precision == "single" else "double"
@@ -110,11 +106,7 @@ def call_lines(function: FunctionSpec, inputs: Mapping[str, np.ndarray], number:
     ]
 
 
-def arrays(
-    said: Sequence[str],
-    calls: Sequence[tuple[FunctionSpec, Mapping[str, np.ndarray]]],
-    kind: np.dtype,
-) -> list[np.ndarray]:
+def arrays(said, calls, kind):
     """What was said, as arrays in double precision."""
     lines = iter(said)
     found = []

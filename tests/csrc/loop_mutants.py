@@ -10,10 +10,12 @@ from collections.abc import Iterator
 from modeler.core.manifest import EmittedModule
 from tests.csrc.test_mutants import Mutant, code_lines, constants, signs
 
-RUNTIME = (
-    "modeler_closure.c", "modeler_closure_factor.c", "modeler_closure_motion.c",
-    "modeler_closing.h", "modeler_solve.h", "modeler_tile.c", "modeler_sincos.h",
-)  # fmt: skip
+RUNTIME = tuple(
+    """
+    modeler_closure.c modeler_closure_factor.c modeler_closure_motion.c modeler_closing.h
+    modeler_solve.h modeler_tile.c modeler_sincos.h
+""".split()
+)
 
 BOUND = re.compile(r"for \((?:int|size_t) (\w+) = (\d+); \1 (<) ([^;&]+?)(?: &&[^;]*)?;")
 FACTOR = r"[\w.>\-]+(?:\[[^\]]*\])?"

@@ -1,7 +1,7 @@
 """A simulated machine that a program of ours drives over pipes, and the C folder of its fit."""
 
 import subprocess
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,17 +13,10 @@ from modeler.codegen.emit import emit
 from modeler.codegen.package import write_emitted
 from modeler.core.manifest import FittedParameter, FittedSpec
 from modeler.robot.robot import Robot
-from modeler.simulation import SimulationSettings, simulate, write_log
+from modeler.simulation import SimulationSettings, run, simulate, write_log
 from modeler.simulation.hidden_draw import complete_effects
 from modeler.simulation.parameters import draw_plant_parameters
 from modeler.simulation.plant import FastFunction, build_tick_function, choose_steps_per_tick
-from modeler.simulation.run import (
-    build_task,
-    compute_encoder_resolution,
-    compute_needed_torques,
-    quantise_position,
-    select_postures,
-)
 from modeler.simulation.trajectory import collect_motion_limits
 from tests.modules import loaded
 
@@ -54,15 +47,15 @@ class Machine:
         parameters = draw_plant_parameters(robot, every, settings.parameter_seed)
         self.hidden = complete_effects(robot, parameters, every, settings)
         self.standard = parameters.standard
-        self.task = build_task(robot, parameters, every, settings, self.hidden)
+        self.task = run.build_task(robot, parameters, every, settings, self.hidden)
         self.reference = self.task.reference
-        self.resolution = compute_encoder_resolution(robot.coordinates, settings)
+        self.resolution = run.compute_encoder_resolution(robot.coordinates, settings)
         plant, tick = self.task.plant, 1 / settings.rate
-        steps = choose_steps_per_tick(plant, self.task.limits, tick, select_postures(self.task))
+        steps = choose_steps_per_tick(plant, self.task.limits, tick, run.select_postures(self.task))
         self._advance = FastFunction(build_tick_function(plant, tick, steps))
         self.joints = len(plant.joints)
         self.moved = self.reference.q - self.reference.q.mean(axis=0)
-        needed = compute_needed_torques(self.task)
+        needed = run.compute_needed_torques(self.task)
         self.torque = float(np.min(rms(needed)))
 
     def tracking(self, k: int, q: np.ndarray, qd: np.ndarray, tau: np.ndarray) -> np.ndarray:
@@ -70,12 +63,7 @@ class Machine:
         ref = self.reference
         return np.concatenate([q, qd, ref.q[k], ref.qd[k], ref.qdd[k]])
 
-    def drive(
-        self,
-        program: Sequence[object],
-        line: Callable[[int, np.ndarray, np.ndarray, np.ndarray], np.ndarray],
-        push: Callable[[float], np.ndarray] | None = None,
-    ) -> Driven:
+    def drive(self, program, line, push=None):
         """Along the reference: the program's first numbers are the torques held for one tick.
 
         Args:
@@ -95,7 +83,7 @@ class Machine:
         ) as own:
             assert own.stdin is not None and own.stdout is not None
             for k in range(ticks):
-                q = quantise_position(x[:n], self.resolution)
+                q = run.quantise_position(x[:n], self.resolution)
                 told = line(k, q, x[n : 2 * n], tau)
                 own.stdin.write(" ".join(repr(float(value)) for value in told) + "\n")
                 own.stdin.flush()

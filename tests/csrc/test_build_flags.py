@@ -55,9 +55,14 @@ def test_make_takes_what_the_compiler_knows_and_compiles_anew_for_another_proces
 def test_cmake_takes_the_same_before_those_of_the_user(folder) -> None:
     compiler("cmake")
     for native in (False, True):
-        run("cmake", "-S", ".", "-B", "b", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
-            "-DCMAKE_C_FLAGS=-ffp-contract=off", f"-DEMPS_NATIVE={'ON' if native else 'OFF'}",
-            where=folder)  # fmt: skip
+        run(
+            *"""
+                cmake -S . -B b -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+                -DCMAKE_C_FLAGS=-ffp-contract=off
+            """.split(),
+            f"-DEMPS_NATIVE={'ON' if native else 'OFF'}",
+            where=folder,
+        )
         commands = json.loads((folder / "b" / "compile_commands.json").read_text())
         for words in (entry["command"].split() for entry in commands):
             assert [w for w in words if w in TUNED] == TUNED and "-O3" in words

@@ -16,13 +16,12 @@ from modeler.codegen.cost import add_cost
 from modeler.codegen.package import write_emitted
 from modeler.codegen.workflow import Derivation, derive, generate
 from modeler.core.errors import BuildError, EmitError, ManifestError
-from modeler.core.manifest import EmittedModule, parse_manifest
+from modeler.core.manifest import parse_manifest
 from tests.csrc.emitted_folders import CPP, built, make, run
 from tests.modules import STRICT, compiler, loaded
 
 PROGRAMS = Path(__file__).with_name("programs")
-TUNED = ["-O3", "-fno-tree-slp-vectorize", "-fno-math-errno", "-fno-trapping-math",
-         "-ffp-contract=fast"]  # fmt: skip
+TUNED = "-O3 -fno-tree-slp-vectorize -fno-math-errno -fno-trapping-math -ffp-contract=fast".split()
 
 
 @cache
@@ -31,9 +30,7 @@ def derivation(name: str) -> Derivation:
 
 
 @cache
-def emitted(
-    name: str, only: str = "", precision: str = "double", vectors: bool = False
-) -> EmittedModule:
+def emitted(name, only="", precision="double", vectors=False):
     control = Control(only=tuple(only.split(",")) if only else (), vectors=vectors)
     return generate(derivation(name), control=control, precision=precision)
 
@@ -62,13 +59,21 @@ def test_what_only_many_samples_need_is_a_library_of_its_own(name, tmp_path):
 
 ONLY = [
     ("demo-arm", "inverse_dynamics,gravity", {"inverse_dynamics", "gravity"}, False),
-    *(pytest.param(*case, marks=pytest.mark.rotating)
-      for case in (("demo-arm", "forward_derivatives", {"forward_derivatives"}, True),
-                   ("demo-arm", "regressor,observation",
-                    {"regressor", "base_regressor", "base_regressor_nonzeros"}, True),
-                   ("five-bar", "inverse_dynamics,close", {"inverse_dynamics", "close"}, False),
-                   ("five-bar", "observation", {"base_regressor"}, True))),
-]  # fmt: skip
+    *(
+        pytest.param(*case, marks=pytest.mark.rotating)
+        for case in (
+            ("demo-arm", "forward_derivatives", {"forward_derivatives"}, True),
+            (
+                "demo-arm",
+                "regressor,observation",
+                {"regressor", "base_regressor", "base_regressor_nonzeros"},
+                True,
+            ),
+            ("five-bar", "inverse_dynamics,close", {"inverse_dynamics", "close"}, False),
+            ("five-bar", "observation", {"base_regressor"}, True),
+        )
+    ),
+]
 
 
 @pytest.mark.parametrize(("name", "only", "wanted", "vectors"), ONLY)
@@ -98,8 +103,11 @@ def test_python_calls_what_there_is_and_says_what_there_is_not():
     tau = model.inverse_dynamics(q, 0 * q, 0 * q, beta)
     evaluated = model.evaluate("inverse_dynamics", q=q, qd=0 * q, qdd=0 * q, beta=beta)
     assert evaluated == pytest.approx(tau)
-    for call in (lambda: model.coriolis(q, q, beta), lambda: model.observation(q, q, q),
-                 lambda: model.base_parameters(np.ones(len(model.spec.standard)))):  # fmt: skip
+    for call in (
+        lambda: model.coriolis(q, q, beta),
+        lambda: model.observation(q, q, q),
+        lambda: model.base_parameters(np.ones(len(model.spec.standard))),
+    ):
         with pytest.raises(ManifestError, match=r"has no function .*generated with --only"):
             call()
 
@@ -114,8 +122,12 @@ def test_a_function_that_is_none_is_refused():
 @pytest.mark.parametrize("words", [["gcc", "-std=c99"], ["g++", "-std=c++17", "-x", "c++"]])
 def test_an_array_that_is_too_short_warns(words, tmp_path):
     write_emitted(emitted("demo-arm"), tmp_path)
-    command = [compiler(words[0]), *words[1:], "-O2", "-Wall", "-Wextra", "-Werror", "-c",
-               program("short.c", tmp_path)]  # fmt: skip
+    command = [
+        compiler(words[0]),
+        *words[1:],
+        *"-O2 -Wall -Wextra -Werror -c".split(),
+        program("short.c", tmp_path),
+    ]
     run(*command, "-DSHORTER=0", where=tmp_path)
     if words[0] == "gcc":
         warning = run(*command, "-DSHORTER=1", where=tmp_path, fails=True)
@@ -127,8 +139,15 @@ def test_joints_limits_and_versions_are_constants(words, tmp_path):
     """Beside the robot file and the manifest."""
     robot, spec = derivation("demo-arm").robot, emitted("demo-arm").spec
     write_emitted(emitted("demo-arm"), tmp_path)
-    run(compiler(words[0]), *words[1:], program("constants.c", tmp_path), "demo_arm_joints.c",
-        "-o", "constants", where=tmp_path)  # fmt: skip
+    run(
+        compiler(words[0]),
+        *words[1:],
+        program("constants.c", tmp_path),
+        "demo_arm_joints.c",
+        "-o",
+        "constants",
+        where=tmp_path,
+    )
     *joints, last = run(tmp_path / "constants", where=tmp_path).splitlines()
     for line, joint in zip(joints, spec.joints, strict=True):
         name, unit, effort, actuated, *limits = line.split("|")
@@ -166,8 +185,12 @@ def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
     assert {int(line.split(",")[1]) for line in lines[:-1]} == set(range(50))
     assert lines[-1] == f"outputs,{len(outputs)}"
     assert f"{len(outputs)} outputs, 0 fail" in make(tmp_path, "vectors")
-    digits = [len(re.sub(r"e.*|\D", "", x).lstrip("0")) for k in outputs[:40]
-              for x in lines[k].split(",")[2:] if x != "0"]  # fmt: skip
+    digits = [
+        len(re.sub(r"e.*|\D", "", x).lstrip("0"))
+        for k in outputs[:40]
+        for x in lines[k].split(",")[2:]
+        if x != "0"
+    ]
     assert min(digits) >= 50
     at = next(k for k in outputs[60:] if "inverse_dynamics" in lines[k])
     head, state, first, *rest = lines[at].split(",")
@@ -190,8 +213,12 @@ def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
 @pytest.mark.parametrize("cc", ["g++", "clang++"])
 def test_the_header_for_cpp_returns_what_the_c_writes(cc, tmp_path):
     built(emitted("demo-arm"), tmp_path, "all", "batch")
-    command = [compiler(cc), *CPP, program("wrapped.cpp", tmp_path), "libdemo_arm_model.a", "-lm",
-               "-o", "wrapped"]  # fmt: skip
+    command = [
+        compiler(cc),
+        *CPP,
+        program("wrapped.cpp", tmp_path),
+        *"libdemo_arm_model.a -lm -o wrapped".split(),
+    ]
     run(*command, "-DSPOIL=(void)0", where=tmp_path)
     assert run(tmp_path / "wrapped", where=tmp_path) == "0"
     ignored = "arm::forward_dynamics(q,qd,g,beta,tau)"
@@ -204,8 +231,13 @@ def test_the_header_for_cpp_returns_what_the_c_writes(cc, tmp_path):
 def test_the_header_for_cpp_has_the_state_of_loops(tmp_path):
     write_emitted(emitted("five-bar", "inverse_dynamics", "single"), tmp_path)
     make(tmp_path)
-    run(compiler("g++"), *CPP, program("state.cpp", tmp_path), "libfive_bar_model.a", "-lm", "-o",
-        "state", where=tmp_path)  # fmt: skip
+    run(
+        compiler("g++"),
+        *CPP,
+        program("state.cpp", tmp_path),
+        *"libfive_bar_model.a -lm -o state".split(),
+        where=tmp_path,
+    )
     run(tmp_path / "state", where=tmp_path)
 
 
@@ -228,8 +260,14 @@ def test_the_stack_of_a_call_is_a_bound_of_what_it_uses(tmp_path):
     found, module = costs("five-bar", BOTH), emitted("five-bar", BOTH)
     write_emitted(module, tmp_path)
     sources = [n for n in module.spec.controller_sources if n.endswith(".c")]
-    run("gcc", *TUNED, program("painted.c", tmp_path), *sources, "-lm", "-lpthread", "-o",
-        "painted", where=tmp_path)  # fmt: skip
+    run(
+        "gcc",
+        *TUNED,
+        program("painted.c", tmp_path),
+        *sources,
+        *"-lm -lpthread -o painted".split(),
+        where=tmp_path,
+    )
     nothing, *both = map(int, run(tmp_path / "painted", where=tmp_path).split())
     for painted, role in zip(both, BOTH.split(","), strict=True):
         stack = found[f"five_bar_{role}"]["stack"]
@@ -241,8 +279,16 @@ def test_the_stack_of_a_function_in_several_versions_is_that_of_the_largest(tmp_
     module, rows = emitted("two-link", BOTH), costs("two-link", BOTH)
     write_emitted(module, tmp_path)
     sources = [n for n in module.spec.controller_sources if re.match(r"two_link.*\.c", n)]
-    run("gcc", "-std=c99", *TUNED, "-fno-asynchronous-unwind-tables", "-fstack-usage", "-c",
-        *sources, where=tmp_path)  # fmt: skip
+    run(
+        "gcc",
+        "-std=c99",
+        *TUNED,
+        "-fno-asynchronous-unwind-tables",
+        "-fstack-usage",
+        "-c",
+        *sources,
+        where=tmp_path,
+    )
     frames: dict[str, int] = {}
     for line in "".join(path.read_text() for path in tmp_path.glob("*.su")).splitlines():
         place, size, _ = line.split("\t")

@@ -159,10 +159,17 @@ def draw_learning(time: np.ndarray, off: np.ndarray, error: np.ndarray) -> None:
         for k, color in enumerate((BLUE, VERMILLION, GREEN))
     ]
     picture = Picture(
-        "adaptive", "A controller that learns its parameters from nothing", "",
-        ((Panel("", "time [s]", "off by [%]", (learnt,)),
-          Panel("", "time [s]", "tracking error [mrad]", tuple(joints))),), 320,
-    )  # fmt: skip
+        "adaptive",
+        "A controller that learns its parameters from nothing",
+        "",
+        (
+            (
+                Panel("", "time [s]", "off by [%]", (learnt,)),
+                Panel("", "time [s]", "tracking error [mrad]", tuple(joints)),
+            ),
+        ),
+        320,
+    )
     place = Path(__file__).parents[2] / "docs" / "how-to" / "adaptive.svg"
     place.write_bytes(figure_matplotlib.render_images(picture)["svg"])
 

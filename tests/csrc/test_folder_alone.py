@@ -11,7 +11,7 @@ from modeler.codegen.package import write_emitted
 from modeler.core.files import locate_resources
 from tests.codegen.fitted_library import with_values
 from tests.modules import compiler, module
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 USER = Path(__file__).with_name("programs") / "user.c"
 KINDS = {
@@ -45,12 +45,14 @@ def test_every_c_file_of_the_folder_links_with_a_main_of_the_user(kind, tmp_path
     )
 
 
-@pytest.mark.parametrize(
-    ("cc", "flag"),
-    [("gcc", "-ffast-math"),
-     *(pytest.param(cc, flag, marks=pytest.mark.rotating)
-       for cc, flag in (("gcc", "-ffinite-math-only"), ("clang", "-ffast-math")))],
-)  # fmt: skip
+@with_cases(
+    "cc, flag",
+    ("gcc", "-ffast-math"),
+    *(
+        pytest.param(cc, flag, marks=pytest.mark.rotating)
+        for cc, flag in (("gcc", "-ffinite-math-only"), ("clang", "-ffast-math"))
+    ),
+)
 def test_no_unit_compiles_where_nan_would_not_stay_nan(cc, flag, tmp_path):
     """Tiles too, and what reduces samples in modeler itself."""
     write_emitted(with_values("five-bar"), tmp_path)

@@ -89,8 +89,12 @@ def test_make_installs_what_cmake_and_pkg_config_find_and_takes_it_away_again(fo
     prefix.mkdir()
     (prefix / "mine").write_text("")
     install_by_make(folder, prefix)
-    assert files(prefix) >= {"include/emps/emps.h", "lib/libemps_model.a", "lib/libemps_model.so",
-                             f"lib/libemps_model.so.{signature()}"}  # fmt: skip
+    assert files(prefix) >= {
+        "include/emps/emps.h",
+        "lib/libemps_model.a",
+        "lib/libemps_model.so",
+        f"lib/libemps_model.so.{signature()}",
+    }
     consume(place, prefix, shared=False)
     moved = tmp_path / "moved"
     prefix.rename(moved)  # nothing in it says where it was
@@ -107,8 +111,10 @@ def check_pkg_config(place: Path, prefix: Path) -> None:
         said = run("pkg-config", *words, where=place, PKG_CONFIG_PATH=str(path), fails=fails)
         return said.strip()
 
-    for package, program, says in (("emps", "consumer", f"{signature()} 100"),
-                                   ("emps_batch", "many", "2")):  # fmt: skip
+    for package, program, says in (
+        ("emps", "consumer", f"{signature()} 100"),
+        ("emps_batch", "many", "2"),
+    ):
         flags = ask("--cflags", "--libs", package).split()
         words = ["-Wall", "-Werror", f"{program}.cpp", *flags, rpath, "-o", program]
         run("g++", *words, where=place)

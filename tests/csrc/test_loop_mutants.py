@@ -19,8 +19,11 @@ COUNT, CAUGHT, SEED = 60, 57, 7
 ESCAPED = (
     # the fallback: rows exchanged, and the regressor that is made there
     ("modeler_closure_factor.c", "lu[i * m + k] -= share", "lu[i * m + k] += share"),
-    ("modeler_closure_factor.c", "k < loops->nonzeros; k++) {\n        const int place",
-     "k < loops->nonzeros - 1; k++) {\n        const int place"),
+    (
+        "modeler_closure_factor.c",
+        "k < loops->nonzeros; k++) {\n        const int place",
+        "k < loops->nonzeros - 1; k++) {\n        const int place",
+    ),
     ("five_bar_base_regressor.c", "phi[2] = -", "phi[2] = "),
     # the proof that the assembly mode stays
     ("five_bar.c", "fabs(J[5] - K[5])", "fabs(J[5] + K[5])"),
@@ -35,7 +38,7 @@ ESCAPED = (
     ("modeler_tile.c", "row * columns + column :", "row * columns :"),
     ("modeler_closing.h", "+ (a[j] - a[j])", ""),
     ("five_bar_tile.c", "+ o31d_q1y;", ";"),
-)  # fmt: skip
+)
 """Wrong signs, terms and bounds that a check of stored states alone did not notice."""
 
 

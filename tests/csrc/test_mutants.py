@@ -17,7 +17,7 @@ from modeler.codegen.package import write_emitted
 from modeler.core.manifest import EmittedModule
 from tests.codegen.fitted_library import Functions, motion, robot_module, with_values
 from tests.modules import compiler, module
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, with_cases
 
 FOLDERS = {
     "wrist": lambda: module("wrist").emitted,
@@ -88,8 +88,12 @@ def code_lines(emitted: EmittedModule, *runtime: str) -> Iterator[tuple[str, int
 def mutants_of(emitted: EmittedModule) -> list[Mutant]:
     """All of the robot's own files, and of sine and cosine."""
     lines = code_lines(emitted, "modeler_sincos.h")
-    return [m for file, at, line, head in lines if not re.search(STEERING, head)
-            for m in in_line(file, line, at)]  # fmt: skip
+    return [
+        m
+        for file, at, line, head in lines
+        if not re.search(STEERING, head)
+        for m in in_line(file, line, at)
+    ]
 
 
 def in_line(file: str, line: str, at: int) -> list[Mutant]:
@@ -191,13 +195,11 @@ def all_mutants(name: str) -> tuple[EmittedModule, list[Mutant]]:
     return emitted, mutants_of(emitted)
 
 
-@pytest.mark.parametrize(
-    ("name", "count"),
-    [
-        ("five-bar with values", 3),
-        pytest.param("slow-arm with values", 3, marks=pytest.mark.rotating),
-        *(pytest.param(name, 12, marks=ROTATING) for name in FOLDERS),
-    ],
+@with_cases(
+    "name, count",
+    ("five-bar with values", 3),
+    pytest.param("slow-arm with values", 3, marks=pytest.mark.rotating),
+    *(pytest.param(name, 12, marks=ROTATING) for name in FOLDERS),
 )
 def test_the_check_of_a_folder_notices_a_wrong_sign_or_constant(name, count, tmp_path):
     emitted, every = all_mutants(name)

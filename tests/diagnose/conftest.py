@@ -92,9 +92,7 @@ def check_gains(found: Diagnosis) -> None:
 
 
 @cache
-def demonstration(
-    rate: float = RATE, robot: str = "demo-arm", seconds: tuple[float, float] = SECONDS
-) -> Case:
+def demonstration(rate=RATE, robot="demo-arm", seconds=SECONDS):
     """The demonstration arm, or another robot, once for all tests of a process."""
     chain = chain_of(robot)
     runs = (

@@ -19,9 +19,7 @@ def with_gap(values: np.ndarray, what: float) -> np.ndarray:
 
 
 @pytest.mark.rotating("long tests of diagnose")
-def test_logs_that_cannot_be_used_are_refused_in_one_line(
-    arm: Path, run: Run, tmp_path: Path
-) -> None:
+def test_logs_that_cannot_be_used_are_refused_in_one_line(arm, run, tmp_path):
     log = columns_of(arm / "other.parquet")
     timeless = log | {"time": with_gap(log["time"], np.nan)}
     creeping = log | {f"q{j}": 1e-3 * log[f"q{j}"] for j in (1, 2, 3)}
@@ -64,9 +62,7 @@ def test_without_held_out_motion_or_with_fitted_one_the_answer_says_so(arm: Path
     assert "data: held out: the model was fitted to train.parquet; " in out
 
 
-def test_channels_that_contradict_the_model_are_named_and_no_physics_is(
-    arm: Path, run: Run, tmp_path: Path
-) -> None:
+def test_channels_that_contradict_the_model_are_named_and_no_physics_is(arm, run, tmp_path):
     """In the logs that are diagnosed, and in held-out ones."""
     log, to = columns_of(arm / "other.parquet"), tmp_path / "d.json"
     exchanged = written(tmp_path / "bad.parquet", log | {"q1": log["q2"], "q2": log["q1"]})
@@ -92,9 +88,7 @@ def late(joint: int, samples: int, columns: Table) -> Table:
 @pytest.mark.parametrize(
     ("samples", "words"), [(2, " ms late, by a fit at other times"), (1, " ms too late beside")]
 )
-def test_a_late_position_is_found_with_its_delay(
-    samples: int, words: str, arm: Path, run: Run, tmp_path: Path
-) -> None:
+def test_a_late_position_is_found_with_its_delay(samples, words, arm, run, tmp_path):
     """Samples of 4 ms; the other joints are in time. A short delay shows in a wide band only."""
     bad = written(tmp_path / "bad.parquet", late(2, samples, columns_of(arm / "other.parquet")))
     _, out, _ = run("diagnose", arm / "m.json", bad)

@@ -82,11 +82,16 @@ def state(case: Case, torque: object) -> State:
 
 
 UNITS = {
-    ("speed",): "N*m*s/rad", ("direction", "load"): "1", ("speed", "load"): "s/rad",
-    ("direction", "root_of_load"): "N^0.5*m^0.5", ("drag", "fall"): "N*m*s^2/rad^2",
-    ("speed", "other_sine"): "N*m*s/rad", ("direction", "late_size"): "N*m*s/rad",
-    ("time", "direction"): "N*m/s", ("place", "memory"): "N*m/rad",
-}  # fmt: skip
+    ("speed",): "N*m*s/rad",
+    ("direction", "load"): "1",
+    ("speed", "load"): "s/rad",
+    ("direction", "root_of_load"): "N^0.5*m^0.5",
+    ("drag", "fall"): "N*m*s^2/rad^2",
+    ("speed", "other_sine"): "N*m*s/rad",
+    ("direction", "late_size"): "N*m*s/rad",
+    ("time", "direction"): "N*m/s",
+    ("place", "memory"): "N*m/rad",
+}
 
 
 def test_units_follow_from_what_is_read(case: Case) -> None:

@@ -25,6 +25,7 @@ from modeler.diagnosis.search import CandidateScan
 from modeler.effects.catalogue import find_effect
 from modeler.regression import DataWarning
 from tests.diagnose.conftest import Case
+from tests.rotation import with_cases
 
 
 def candidate(name: str, joint: str | None = "1") -> Candidate:
@@ -35,9 +36,7 @@ def candidate(name: str, joint: str | None = "1") -> Candidate:
     return Candidate(effect, effect.forms[0], joint, 0, shapes)
 
 
-def at_its_best(
-    name: str, share: float, value: float = 1.0, drop: object = None
-) -> ScoredCandidate:
+def at_its_best(name, share, value=1.0, drop=None):
     """An effect that explains so much, by these values."""
     one = candidate(name)
     values, drop = np.full(len(one.effect.columns), value), np.ones(40) if drop is None else drop
@@ -82,9 +81,7 @@ def test_signs_and_sizes_that_physics_forbids() -> None:
 
 
 @pytest.mark.parametrize(("error", "said"), [(1.4, "cannot tell"), (0.9, "nothing significant")])
-def test_of_motion_that_is_not_explained_at_all_nothing_can_be_told(
-    error: float, said: str
-) -> None:
+def test_of_motion_that_is_not_explained_at_all_nothing_can_be_told(error, said):
     time = np.linspace(0.0, 30.0, 3000)
     observation = SimpleNamespace(time=time, run=np.zeros(3000), logs=("a",))
     start = SimpleNamespace(y=[np.zeros(3000)], data=SimpleNamespace(observation=observation))
@@ -102,17 +99,13 @@ def test_of_two_that_explain_the_same_a_rare_sign_loses(stiffness: float, named:
     assert best is not None and best.candidate.effect.id == named
 
 
-@pytest.mark.parametrize(
-    ("effect", "left", "said"),
-    [
-        ("external_force", False, "missing"),
-        ("external_force", True, "closest description"),
-        ("backlash", True, "missing"),
-    ],
+@with_cases(
+    "effect, left, said",
+    ("external_force", False, "missing"),
+    ("external_force", True, "closest description"),
+    ("backlash", True, "missing"),
 )
-def test_a_push_is_no_fact_while_something_acts_all_the_time(
-    effect: str, left: bool, said: str
-) -> None:
+def test_a_push_is_no_fact_while_something_acts_all_the_time(effect, left, said):
     joints = joint_left(0.1, left)
     event = finding(effect, None, is_event=effect == "external_force")
     first = _add_event_caveat(event, joints)  # type: ignore[arg-type]
@@ -125,28 +118,24 @@ FAINT = CrossCheck("up to 9 Hz", None, True, 0.01, 0.1)
 DROWNED = CrossCheck("up to 9 Hz", None, True, -0.01, 0.015)
 
 
-@pytest.mark.parametrize(
-    ("name", "after", "others", "why"),
-    [
-        ("spring", 0.1, {}, ""),
-        ("spring", 0.185, {}, "falls by less than 10 %"),
-        ("spring", 0.185, {"closed": 0.96}, ""),
-        ("spring", 0.185, {"refines": True}, ""),
-        ("spring", 0.65, {}, "the error is 65 % still"),
-        ("spring", 0.1, {"caveat": "too heavy"}, "too heavy"),
-        ("spring", 0.1, {"ties": (candidate("spring", "3"),)}, "one of joint 3"),
-        ("spring", 0.1, {"ties": (candidate("counterbalance"), candidate("base_tilt", None))}, ""),
-        ("spring", 0.1, {"ties": (candidate("cable_hysteresis"),)}, "kind: cable_hysteresis"),
-        ("spring", 0.1, {"checks": (LED,)}, "stribeck explains its joint better (up to 9 Hz)"),
-        ("spring", 0.1, {"checks": (FAINT,)}, "explains nothing up to 9 Hz"),
-        ("spring", 0.1, {"checks": (DROWNED,)}, ""),
-        ("drive_gain", 0.1, {"caveat": "1000 times", "checks": (LED, FAINT)}, ""),
-        ("joint_ripple", 0.1, {"sigmas": {"m": 0.01}}, "no number of teeth"),
-    ],
+@with_cases(
+    "name, after, others, why",
+    ("spring", 0.1, {}, ""),
+    ("spring", 0.185, {}, "falls by less than 10 %"),
+    ("spring", 0.185, {"closed": 0.96}, ""),
+    ("spring", 0.185, {"refines": True}, ""),
+    ("spring", 0.65, {}, "the error is 65 % still"),
+    ("spring", 0.1, {"caveat": "too heavy"}, "too heavy"),
+    ("spring", 0.1, {"ties": (candidate("spring", "3"),)}, "one of joint 3"),
+    ("spring", 0.1, {"ties": (candidate("counterbalance"), candidate("base_tilt", None))}, ""),
+    ("spring", 0.1, {"ties": (candidate("cable_hysteresis"),)}, "kind: cable_hysteresis"),
+    ("spring", 0.1, {"checks": (LED,)}, "stribeck explains its joint better (up to 9 Hz)"),
+    ("spring", 0.1, {"checks": (FAINT,)}, "explains nothing up to 9 Hz"),
+    ("spring", 0.1, {"checks": (DROWNED,)}, ""),
+    ("drive_gain", 0.1, {"caveat": "1000 times", "checks": (LED, FAINT)}, ""),
+    ("joint_ripple", 0.1, {"sigmas": {"m": 0.01}}, "no number of teeth"),
 )
-def test_one_rule_says_in_words_why_an_effect_is_perhaps_and_no_more(
-    name: str, after: float, others: dict[str, object], why: str
-) -> None:
+def test_one_rule_says_in_words_why_an_effect_is_perhaps_and_no_more(name, after, others, why):
     said = explain_weak_evidence(candidate(name), (0.2 if after < 0.2 else 0.9, after), **others)  # type: ignore[arg-type]
     assert why in said and bool(said) is bool(why)
     first = finding(name, "2", warning=said)
@@ -165,16 +154,14 @@ def test_plain_friction_goes_before_what_refines_it(share: float, goes_first: bo
     assert best is (plain if goes_first else finer)
 
 
-@pytest.mark.parametrize(
-    ("named", "other", "tie"),
-    [
-        ("viscous", "nonlinear_viscous", False),
-        ("viscous", "coulomb", True),
-        ("offset", "spring", False),
-        ("offset", "drift", True),
-        ("spring", "counterbalance", True),
-        ("presliding", "stribeck", True),
-    ],
+@with_cases(
+    "named, other, tie",
+    ("viscous", "nonlinear_viscous", False),
+    ("viscous", "coulomb", True),
+    ("offset", "spring", False),
+    ("offset", "drift", True),
+    ("spring", "counterbalance", True),
+    ("presliding", "stribeck", True),
 )
 def test_laws_that_every_joint_has_have_no_finer_rivals(named: str, other: str, tie: bool) -> None:
     drop = np.random.default_rng(3).uniform(0.5, 1.5, 40)
@@ -186,9 +173,7 @@ def test_laws_that_every_joint_has_have_no_finer_rivals(named: str, other: str, 
 @pytest.mark.parametrize(
     ("gain", "share", "taken"), [(0.5, 0.49, True), (0.5, 0.3, False), (0.1, 0.05, True)]
 )
-def test_what_is_doubted_gives_way_to_a_rival_that_explains_as_much(
-    gain: float, share: float, taken: bool
-) -> None:
+def test_what_is_doubted_gives_way_to_a_rival_that_explains_as_much(gain, share, taken):
     doubted = dataclasses.replace(at_its_best("elasticity", gain), reason="too heavy")
     rival = search.RankedCandidates((), at_its_best("spring", share))
     survey = SimpleNamespace(judge_candidates=lambda vetoed, tick: rival)
@@ -212,11 +197,15 @@ def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
     steps = [SimpleNamespace(candidate=SimpleNamespace(key=("offset", "1")), score=None)]
     whole = SimpleNamespace(vetoed_candidates=vetoed, steps=steps, last=last)
     lines = describe_rejected(SimpleNamespace(search=whole, effects=(named,), refinements=()))  # type: ignore[arg-type]
-    for line, (what, why) in zip(lines, (
-        ("(elasticity), joint 2, explains 60 %", "errors of timing"),
-        ("(spring), joint 1, explains 50 %", "motion left out"),
-        ("(drift), joint 2, explains 40 %", "would drive"),
-    ), strict=True):  # fmt: skip
+    for line, (what, why) in zip(
+        lines,
+        (
+            ("(elasticity), joint 2, explains 60 %", "errors of timing"),
+            ("(spring), joint 1, explains 50 %", "motion left out"),
+            ("(drift), joint 2, explains 40 %", "would drive"),
+        ),
+        strict=True,
+    ):
         assert what in line and why in line
 
 
@@ -224,9 +213,7 @@ def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
     ("after", "expected", "refused"),
     [(0.5, 0.9, False), (0.999, 0.04, True), (0.92, 0.9, True), (0.92, 0.3, False)],
 )
-def test_an_effect_keeps_on_other_motion_what_it_promises(
-    monkeypatch: pytest.MonkeyPatch, after: float, expected: float, refused: bool
-) -> None:
+def test_an_effect_keeps_on_other_motion_what_it_promises(monkeypatch, after, expected, refused):
     """Errors there without it are 1; a little falls by chance, or by what the effect is not."""
     change = ErrorChange("", 1.0, after, 5.0)
     monkeypatch.setattr(scoring, "find_affected_joints", lambda score, before, after: [0])
@@ -243,14 +230,13 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(
 @pytest.mark.parametrize(
     ("left", "certain", "told"), [(0.4, False, 0), (0.6, False, 1), (0.4, True, 1)]
 )
-def test_what_an_effect_explains_is_no_matter_of_the_channel(
-    monkeypatch: pytest.MonkeyPatch, left: float, certain: bool, told: int
-) -> None:
+def test_what_an_effect_explains_is_no_matter_of_the_channel(monkeypatch, left, certain, told):
     for name in ("_check_position_delay", "_describe_delay_shift", "describe_data_problems"):
         monkeypatch.setattr(messages, name, lambda *a: [])
     data = SimpleNamespace(observation=SimpleNamespace(report=SimpleNamespace(collect_notes=list)))
-    start, end = (SimpleNamespace(residual=[np.full(10, size)], data=data, picks=())
-                  for size in (1.0, left))  # fmt: skip
+    start, end = (
+        SimpleNamespace(residual=[np.full(10, size)], data=data, picks=()) for size in (1.0, left)
+    )
     faults = [DataWarning("torque 1 is 0.7 times the predicted", certain, joint=0)]
     search = SimpleNamespace(start=start, end=end)
     assert len(messages.collect_warnings(None, search, None, faults)) == told  # type: ignore[arg-type]
@@ -260,18 +246,18 @@ def test_what_gave_way_is_a_tie_of_what_explains_as_much() -> None:
     refused = [
         dataclasses.replace(at_its_best(name, share), reason=why)
         for name, share, why in (
-            ("counterbalance", 0.51, "no gravity"), ("elasticity", 0.9, "too heavy"),
-            ("drift", 0.5, DRIVES), ("payload", 0.5, ""),
+            ("counterbalance", 0.51, "no gravity"),
+            ("elasticity", 0.9, "too heavy"),
+            ("drift", 0.5, DRIVES),
+            ("payload", 0.5, ""),
         )
-    ]  # fmt: skip
+    ]
     found = search._find_displaced_candidates(refused, at_its_best("spring", 0.5))
     assert [judged.candidate.effect.id for judged in found] == ["counterbalance"]
 
 
 @pytest.mark.parametrize(("before", "now", "again"), [(0.5, 0.8, True), (0.5, 0.7, False)])
-def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(
-    before: float, now: float, again: bool
-) -> None:
+def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(before, now, again):
     better = dataclasses.replace(at_its_best("spring", now))
     survey = CandidateScan(None, (), (better,))  # type: ignore[arg-type]
     mending = dataclasses.replace(at_its_best("stribeck", 0.2), values=-np.ones(1))

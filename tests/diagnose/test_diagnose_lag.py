@@ -54,9 +54,7 @@ def stated_friction(found: Diagnosis) -> list[str]:
 @pytest.mark.parametrize(
     ("torque", "joint", "tau"), [(LAG2, "2", 0.02), *rotating((LAG_ALL, None, 0.015))]
 )
-def test_a_filtered_torque_is_named_with_its_time(
-    case: Case, torque: Torque, joint: str | None, tau: float
-) -> None:
+def test_a_filtered_torque_is_named_with_its_time(case, torque, joint, tau):
     found = case.found(torque)
     first = found.effects[0]
     assert (first.effect, first.joint, first.status) == ("torque_lag", joint, "confirmed")
@@ -91,8 +89,10 @@ def test_what_is_a_delay_or_a_filter_takes_no_place(case: Case) -> None:
         found = case.found(changed(how, 1, 0.004))
         assert not stated_friction(found) and not found.addable_findings
         assert all(step.candidate.effect.id != "torque_lag" for step in found.search.steps)
-        assert any("(torque_lag), joint 2" in line and "describes it as well" in line
-                   for line in found.sentences)  # fmt: skip
+        assert any(
+            "(torque_lag), joint 2" in line and "describes it as well" in line
+            for line in found.sentences
+        )
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")

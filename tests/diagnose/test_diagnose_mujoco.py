@@ -16,7 +16,7 @@ pytest.importorskip("mujoco", reason="NOT CHECKED: MuJoCo (PyPI: mujoco-core) is
 from tests.chain import chain_of
 from tests.diagnose.conftest import written
 from tests.diagnose.mujoco_arm import ROWS, G, random_arm, random_body, robot_text, run
-from tests.rotation import ROTATING, rotating
+from tests.rotation import ROTATING, rotating, with_cases
 
 TRAIN, HOLDOUT = 12.0, 6.0  # s, of moves, and as much of a Fourier series
 USUAL = ("rotor_inertia", "viscous", "coulomb", "offset")
@@ -81,10 +81,12 @@ def diagnosed(folder, seed, effect=None, joint=None):
 
 
 @pytest.mark.rotating("long tests of diagnose")
-@pytest.mark.parametrize(
-    "effect", ["viscous", *rotating("spring", "payload"),
-               *(pytest.param(name, marks=ROTATING) for name in [*WHERE][3:])],
-)  # fmt: skip
+@with_cases(
+    "effect",
+    "viscous",
+    *rotating("spring", "payload"),
+    *(pytest.param(name, marks=ROTATING) for name in [*WHERE][3:]),
+)
 def test_what_the_file_lacks_is_named_first(tmp_path, effect):
     seed, joint = WHERE[effect]
     first = diagnosed(tmp_path, seed, effect, joint).effects[0]

@@ -44,8 +44,11 @@ def changed(columns: dict[str, np.ndarray], how: str) -> dict[str, np.ndarray]:
     if how == "short":
         return {name: values[:150] for name, values in columns.items()}
     last = max(name[1:] for name in columns if name[0] == "q" and name[1:].isdigit())
-    still = {name: 0 * columns[name] + columns[name][0] * (name[1] != "d")
-             for name in (f"q{last}", f"qd{last}", f"qc{last}") if name in columns}  # fmt: skip
+    still = {
+        name: 0 * columns[name] + columns[name][0] * (name[1] != "d")
+        for name in (f"q{last}", f"qd{last}", f"qc{last}")
+        if name in columns
+    }
     return columns | still
 
 

@@ -11,6 +11,7 @@ from modeler.diagnosis.plausibility import find_caveat
 from modeler.diagnosis.signals import SignalReference, compute_tilt_axes
 from modeler.effects.catalogue import find_effect
 from tests.chain import chain_of
+from tests.rotation import with_cases
 
 INERTIA = 2.0  # kg m^2
 
@@ -76,15 +77,13 @@ def levered(curve, weight=0.5, noise=0.1):
     return made
 
 
-@pytest.mark.parametrize(
-    ("bent", "weight", "links", "doubt"),
-    [
-        (0.5, 0.5, False, ""),
-        (0.5, 0.01, False, "gravity does not turn joint 1"),
-        (0.1, 0.5, False, "a straight line in q"),
-        (0.1, 0.5, True, ""),
-        (0.02, 0.5, True, "a straight line in q"),
-    ],
+@with_cases(
+    "bent, weight, links, doubt",
+    (0.5, 0.5, False, ""),
+    (0.5, 0.01, False, "gravity does not turn joint 1"),
+    (0.1, 0.5, False, "a straight line in q"),
+    (0.1, 0.5, True, ""),
+    (0.02, 0.5, True, "a straight line in q"),
 )
 def test_a_lever_balances_gravity_and_is_no_straight_line(bent, weight, links, doubt):
     """With link data a bend is seen that free inertias could make."""
@@ -128,15 +127,13 @@ def test_a_body_has_the_inertia_of_a_body(monkeypatch, inertia, built):
     assert (find_caveat(made, payload, said) == "") is built
 
 
-@pytest.mark.parametrize(
-    ("effect", "values", "said"),
-    [
-        ("payload", {"mass": -4.0}, "no body has a mass of -4 kg"),
-        ("drive_gain", {"eps1": 2.0}, "-1 times"),
-        ("drive_gain", {"eps1": 1.0}, "check sign and unit"),
-        ("drive_gain", {"eps1": 0.2}, ""),
-        ("offset", {"Off1": 1.0}, ""),
-    ],
+@with_cases(
+    "effect, values, said",
+    ("payload", {"mass": -4.0}, "no body has a mass of -4 kg"),
+    ("drive_gain", {"eps1": 2.0}, "-1 times"),
+    ("drive_gain", {"eps1": 1.0}, "check sign and unit"),
+    ("drive_gain", {"eps1": 0.2}, ""),
+    ("offset", {"Off1": 1.0}, ""),
 )
 def test_masses_gains_and_others(effect, values, said):
     """A gain that is far off is a matter of sign or unit; of most effects nothing is asked."""

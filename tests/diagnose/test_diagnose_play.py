@@ -12,6 +12,7 @@ from modeler.diagnosis.scoring import ErrorChange, Score
 from modeler.effects.catalogue import CATALOGUE, find_effect
 from modeler.views.evidence import draw_play_picture
 from tests.diagnose.conftest import Case, motion, on_joint
+from tests.rotation import with_cases
 
 ERRORS = {"1": 0.05, "2": 0.05, "3": 0.05}
 
@@ -70,14 +71,12 @@ def test_bursts_name_play_alone_and_beside_others(monkeypatch, others):
     ]
 
 
-@pytest.mark.parametrize(
-    ("ratio", "column_of_play", "beside", "alone"),
-    [
-        (4.5, (0.1, 0.1, 8.0), False, True),
-        (5.5, (0.1, 0.1, 8.0), True, True),
-        (5.5, (0.015, 0.01, 8.0), False, False),
-        (5.5, (0.1, 0.1, 4.0), False, False),
-    ],
+@with_cases(
+    "ratio, column_of_play, beside, alone",
+    (4.5, (0.1, 0.1, 8.0), False, True),
+    (5.5, (0.1, 0.1, 8.0), True, True),
+    (5.5, (0.015, 0.01, 8.0), False, False),
+    (5.5, (0.1, 0.1, 4.0), False, False),
 )
 def test_faint_bursts_count_where_the_column_of_play_explains_something(
     monkeypatch, ratio, column_of_play, beside, alone

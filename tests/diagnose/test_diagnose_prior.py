@@ -13,8 +13,11 @@ from tests.chain import chain_of
 from tests.link_data import buildable, links, text
 
 NOMINAL = links(4)
-BALANCE = HiddenEffect("counterbalance", "2", {"lever": 0.12, "base": 0.3, "angle": 0.8,
-                                               "length": 0.1, "stiffness": 6000.0})  # fmt: skip
+BALANCE = HiddenEffect(
+    "counterbalance",
+    "2",
+    {"lever": 0.12, "base": 0.3, "angle": 0.8, "length": 0.1, "stiffness": 6000.0},
+)
 LINE = "a counterbalance on joint 2 cannot be distinguished from gravity: give link data"
 
 
@@ -23,10 +26,14 @@ def fitted(values, seed, hidden=(), uncertainty=None):
     machine = buildable(0.1, np.random.default_rng(seed), NOMINAL)
     true = parse_robot_text(text(machine), "true")
     runs = [
-        simulate(true, SimulationSettings(duration=seconds, rate=400.0, seed=seed + k,
-                                          torque_noise=0.02, hidden=hidden))
+        simulate(
+            true,
+            SimulationSettings(
+                duration=seconds, rate=400.0, seed=seed + k, torque_noise=0.02, hidden=hidden
+            ),
+        )
         for k, seconds in enumerate((16.0, 10.0))
-    ]  # fmt: skip
+    ]
     return machine, chain_of(text(values, uncertainty)).fit(runs[:1]), runs[:1], runs[1:]
 
 

@@ -18,6 +18,7 @@ from modeler.estimation.parameters import format_spread
 from modeler.runtime.model import load_module
 from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
 from tests.chain import chain_of
+from tests.rotation import with_cases
 
 
 @cache
@@ -25,9 +26,13 @@ def simulated(hide, seed):
     """A log of a machine with a hidden effect, its model, and the effect's true values."""
     arm, hidden = chain_of("demo-arm"), (parse_hidden_effect(hide),)
     settings = {
-        "duration": 15.0, "rate": 500.0, "seed": seed, "parameter_seed": seed,
-        "torque_noise": 0.02, "hidden": hidden,
-    }  # fmt: skip
+        "duration": 15.0,
+        "rate": 500.0,
+        "seed": seed,
+        "parameter_seed": seed,
+        "torque_noise": 0.02,
+        "hidden": hidden,
+    }
     truth = simulate(arm.derivation.robot, SimulationSettings(**settings)).truth
     log = arm.log(str(seed), **settings)
     return log, arm.fit([log]), truth.hidden_effects[0].values
@@ -90,8 +95,11 @@ def test_a_narrow_likelihood_gives_the_delta_method():
     # g(theta) linear, S(theta) quadratic: var g = s^2 + (dg/dtheta)^2 var theta.
     along, _ = found("stribeck@2", 902)
     told = along.reported_point.nonlinear_parameters
-    near = [(p, r) for p, r in zip(along.points, along.squares_rise, strict=True)
-            if p.nonlinear_parameters["d"] == told["d"] and r < 9.0]  # fmt: skip
+    near = [
+        (p, r)
+        for p, r in zip(along.points, along.squares_rise, strict=True)
+        if p.nonlinear_parameters["d"] == told["d"] and r < 9.0
+    ]
     x = np.log([p.nonlinear_parameters["vs"] for p, _ in near])
     rise = np.array([r for _, r in near])
     g = np.array([p.values[0] for p, _ in near])
@@ -141,15 +149,13 @@ def test_shapes_widen_what_stands_beside_them():
     assert all(sigma[name] >= 0.999 * fixed[name] for name in fixed)
 
 
-@pytest.mark.parametrize(
-    ("value", "sigma", "interval", "text"),
-    [
-        (2.0, 0.1, None, " +- 0.1"),
-        (2.0, 0.1, (1.8, 2.2), " +- 0.1"),
-        (2.0, 0.5, (1.9, 4.0), " (1.9 to 4)"),
-        (2.0, 0.5, (2.0, 4.0), " (2 to 4)"),
-        (2.0, 0.0, (2.0, 2.0), ""),
-    ],
+@with_cases(
+    "value, sigma, interval, text",
+    (2.0, 0.1, None, " +- 0.1"),
+    (2.0, 0.1, (1.8, 2.2), " +- 0.1"),
+    (2.0, 0.5, (1.9, 4.0), " (1.9 to 4)"),
+    (2.0, 0.5, (2.0, 4.0), " (2 to 4)"),
+    (2.0, 0.0, (2.0, 2.0), ""),
 )
 def test_an_interval_is_told_where_one_sigma_says_little(value, sigma, interval, text):
     assert format_spread(value, sigma, interval) == text

@@ -14,8 +14,8 @@ from modeler.regression.log import Log
 from modeler.views.diagnosis import build_diagnosis_page
 from modeler.views.evidence import draw_push_picture
 from modeler.views.page import write_page
-from tests.diagnose.conftest import Case, Torque, check_gains, motion, on_joint
-from tests.rotation import rotating
+from tests.diagnose.conftest import Case, check_gains, motion, on_joint
+from tests.rotation import rotating, with_cases
 
 
 def pushed(*windows: tuple[float, float], size: float = 1.0):
@@ -96,16 +96,12 @@ constant = partial(helical, pull=150.0)
 
 
 @pytest.mark.rotating("long tests of diagnose")
-@pytest.mark.parametrize(
-    ("torque", "named", "ties", "status"),
-    [
-        (constant, "constant_force_spring", (), "confirmed"),
-        *rotating((helical, "counterbalance", (("constant_force_spring", "2"),), "likely")),
-    ],
+@with_cases(
+    "torque, named, ties, status",
+    (constant, "constant_force_spring", (), "confirmed"),
+    *rotating((helical, "counterbalance", (("constant_force_spring", "2"),), "likely")),
 )
-def test_a_helical_spring_and_a_constant_pull_are_told_apart(
-    case: Case, torque: Torque, named: str, ties: tuple[tuple[str, str], ...], status: str
-) -> None:
+def test_a_helical_spring_and_a_constant_pull_are_told_apart(case, torque, named, ties, status):
     first = case.found(torque).effects[0]
     assert (first.effect, first.joint, first.equivalents) == (named, "2", ties)
     assert (first.status == "confirmed") is (status == "confirmed")
@@ -128,9 +124,7 @@ def slower(log: Log, every: int, late: float) -> Log:
 
 @pytest.mark.rotating("long tests of diagnose")
 @pytest.mark.parametrize(("late", "named"), [*rotating((0.0054, False)), (0.009, True)])
-def test_half_a_sample_is_a_convention_and_more_is_a_delay(
-    case: Case, late: float, named: bool
-) -> None:
+def test_half_a_sample_is_a_convention_and_more_is_a_delay(case, late, named):
     """Of 12 ms; a delay is given as instruments see it, which noise does not make smaller."""
     every = round(0.012 / float(np.median(np.diff(case.train.time))))
     train, holdout = (slower(log, every, late) for log in (case.train, case.holdout))

@@ -19,7 +19,7 @@ from modeler.core.choices import read_builtin_robot
 from modeler.effects import CATALOGUE, Effect
 from modeler.robot import parse_robot_text, replace_effects
 from modeler.simulation import HIDDEN
-from tests.rotation import ROTATING, rotating
+from tests.rotation import ROTATING, rotating, with_cases
 
 QUICK = ("stribeck", "payload")
 """A column and a body; the others rotate."""
@@ -51,11 +51,12 @@ def test_the_commands_of_every_effect_parse(effect: Effect) -> None:
 
 
 @pytest.mark.rotating("long tests of docsite")
-@pytest.mark.parametrize(
+@with_cases(
     "name",
-    ["stribeck", *rotating("payload"),
-     *(pytest.param(e.id, marks=ROTATING) for e in CATALOGUE if e.id not in QUICK)],
-)  # fmt: skip
+    "stribeck",
+    *rotating("payload"),
+    *(pytest.param(e.id, marks=ROTATING) for e in CATALOGUE if e.id not in QUICK),
+)
 def test_an_effect_has_its_page(name: str) -> None:
     found = made(name)
     effect, page = found.effect, found.page

@@ -20,9 +20,12 @@ def main() -> int:
     made = argparse.ArgumentParser("python -m tests.drive_gains", description=__doc__)
     made.add_argument("robot", nargs="?", default="demo-arm")
     for name, kind, default in (
-        ("--mass", float, 2.0), ("--noise", float, 0.03), ("--seeds", int, 50),
-        ("--duration", float, 20.0), ("--rate", float, 250.0),
-    ):  # fmt: skip
+        ("--mass", float, 2.0),
+        ("--noise", float, 0.03),
+        ("--seeds", int, 50),
+        ("--duration", float, 20.0),
+        ("--rate", float, 250.0),
+    ):
         made.add_argument(name, type=kind, default=default, help="default: %(default)s")
     args = made.parse_args()
     runs = runs_of(args.robot, args.mass, args.duration, args.rate)

@@ -66,10 +66,14 @@ def runs_of(robot: str, mass: float, duration: float, rate: float) -> Runs:
     compiled = chain.compiled
     load_of = parse_hidden_effect(f"payload:mass={mass}")
     bare, loaded = (
-        simulate(chain.derivation.robot, SimulationSettings(
-            duration=duration, rate=rate, seed=seed, torque_noise=0.0, hidden=hidden
-        )) for seed, hidden in ((1, ()), (2, (load_of,)))
-    )  # fmt: skip
+        simulate(
+            chain.derivation.robot,
+            SimulationSettings(
+                duration=duration, rate=rate, seed=seed, torque_noise=0.0, hidden=hidden
+            ),
+        )
+        for seed, hidden in ((1, ()), (2, (load_of,)))
+    )
     truth = bare.truth.parameters
     beta = [sum(t.value * truth[t.parameter] for t in base.terms) for base in compiled.spec.base]
     return Runs(compiled, bare, loaded, mass, np.array(beta))

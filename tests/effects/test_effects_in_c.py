@@ -8,18 +8,22 @@ from modeler.effects.catalogue import CATALOGUE
 from modeler.effects.effect import Effect, EffectTarget
 from modeler.robot.edit import replace_effects
 from modeler.robot.read import parse_robot_text
-from modeler.runtime.model import CompiledModel
 from tests.modules import loaded
+from tests.texts import read_pairs
 
 Motion = tuple[np.ndarray, np.ndarray, np.ndarray]
 SAMPLES = 40
 FUNCTIONS = {
-    "sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt,
-    "exp": np.exp, "abs": np.abs, "sign": np.sign, "tanh": np.tanh,
-}  # fmt: skip
-SHAPES = {
-    "h": 0.3, "vs": 0.3, "d": 1.3, "p": 1.7, "w": 0.5, "tau": 20.0, "b": 0.4, "q0": 0.8, "m": 3.0
-}  # fmt: skip
+    "sin": np.sin,
+    "cos": np.cos,
+    "tan": np.tan,
+    "sqrt": np.sqrt,
+    "exp": np.exp,
+    "abs": np.abs,
+    "sign": np.sign,
+    "tanh": np.tanh,
+}
+SHAPES = read_pairs("h 0.3 vs 0.3 d 1.3 p 1.7 w 0.5 tau 20.0 b 0.4 q0 0.8 m 3.0")
 REFERENCE = """
 [reference]
 ZZ1 = 1.2
@@ -114,9 +118,7 @@ def test_an_encoders_error_moves_links_and_rotor() -> None:
     np.testing.assert_allclose(phi[:, :, names.index("Ec2")], moved, rtol=1e-6, atol=1e-6)
 
 
-def moved_torque(
-    compiled: CompiledModel, chi: np.ndarray, motion: Motion, by: Motion, e: float = 1e-6
-) -> np.ndarray:
+def moved_torque(compiled, chi, motion, by, e=1e-6):
     """Slope in e of the torque for q2 + e f(q2), by differences; `by` is f, f' and f''."""
     q, v, a = motion
     f, slope, curve = (x[:, 1] for x in by)

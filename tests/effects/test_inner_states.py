@@ -8,11 +8,7 @@ import pytest
 
 from modeler.api import derive, generate
 from modeler.core.errors import ShapeError
-from modeler.regression.segments import (
-    apply_lag,
-    compute_signals_along,
-    compute_time_since_reversal,
-)
+from modeler.regression import segments
 from tests.effects.test_own_effects_in_c import REFERENCE, arm_with
 from tests.modules import loaded
 
@@ -42,7 +38,7 @@ def moves(seed: int) -> tuple[np.ndarray, list[float]]:
 @pytest.mark.parametrize("seed", range(3))
 def test_since_counts_from_the_last_reversal_and_from_nothing_else(seed: int) -> None:
     q, turned = moves(seed)
-    _, since = compute_time_since_reversal(q, STEP, 3e-4)
+    _, since = segments.compute_time_since_reversal(q, STEP, 3e-4)
     past = [max([0.0, *(at for at in turned if at <= t)]) for t in TIME]
     expected = TIME - past
     # it shows once the joint has come back by 0.2 mrad; the noise of its speed then differs from
@@ -58,14 +54,14 @@ def test_since_is_right_at_constant_acceleration() -> None:
     t = np.arange(-500, 500) * 0.001 + 0.0004
     for acceleration, distance in ((1.0, 3e-4), (4.0, 1e-3), (0.3, 1e-4)):
         q = -0.5 * acceleration * t**2
-        _, since = compute_time_since_reversal(q, 0.001, distance)
+        _, since = segments.compute_time_since_reversal(q, 0.001, distance)
         shown = t > math.sqrt(2.0 * distance / acceleration) + 0.002
         np.testing.assert_allclose(since[shown], t[shown], atol=0.002)
 
 
 def test_a_joint_that_never_moves_has_not_turned() -> None:
     q = NOISE * np.random.default_rng(5).normal(size=len(TIME))
-    np.testing.assert_allclose(compute_time_since_reversal(q, STEP, 3e-4)[1], TIME)
+    np.testing.assert_allclose(segments.compute_time_since_reversal(q, STEP, 3e-4)[1], TIME)
 
 
 def test_a_lag_is_the_solution_of_its_equation() -> None:
@@ -74,8 +70,8 @@ def test_a_lag_is_the_solution_of_its_equation() -> None:
     x = np.sin(w * TIME)
     left = w * tau * (np.exp(-TIME / tau) - np.cos(w * TIME))
     expected = (x + left) / (1.0 + (w * tau) ** 2)
-    np.testing.assert_allclose(apply_lag(x, STEP, tau), expected, atol=2e-6)
-    np.testing.assert_allclose(apply_lag(np.full(9, 2.5), STEP, tau), 2.5, rtol=1e-14)
+    np.testing.assert_allclose(segments.apply_lag(x, STEP, tau), expected, atol=2e-6)
+    np.testing.assert_allclose(segments.apply_lag(np.full(9, 2.5), STEP, tau), 2.5, rtol=1e-14)
 
 
 FOLLOWED = "abs(v)**p + load*q3 - since + t*a1"
@@ -100,12 +96,14 @@ def test_the_c_steps_lags_as_the_equations_say(precision: Literal["double", "sin
     x = np.abs(v[:, 1]) ** 1.5 + pull * q[:, 2] - since + (clock - 0.5) * a[:, 0]
     z = s[:, 4] + (1.0 - np.exp(-0.02 / 0.3)) * (0.5 * (x + s[:, 3]) - s[:, 4])
     exact = 1e-12 if precision == "double" else 2e-5
-    np.testing.assert_allclose(after[:, [0, 3, 4]], np.column_stack([clock, x, z]), rtol=exact,
-                               atol=exact)  # fmt: skip
+    np.testing.assert_allclose(
+        after[:, [0, 3, 4]], np.column_stack([clock, x, z]), rtol=exact, atol=exact
+    )
     way = np.sign(s[:, 1] + dq[:, 1] / 3e-3)  # each of these steps is far longer than a reversal
     np.testing.assert_allclose(after[:, 1], way)
-    ago = np.minimum(s[:, 2] + 0.02, 0.04 * (1.0 + np.abs(dq[:, 1] / 3e-3 + s[:, 1]))
-                     / np.abs(dq[:, 1] / 3e-3))  # fmt: skip
+    ago = np.minimum(
+        s[:, 2] + 0.02, 0.04 * (1.0 + np.abs(dq[:, 1] / 3e-3 + s[:, 1])) / np.abs(dq[:, 1] / 3e-3)
+    )
     np.testing.assert_allclose(since, np.where(way < 0.0, ago, s[:, 2] + 0.02), rtol=1e-4)
     with pytest.raises(ShapeError, match="its effects have lags; give q, qd, qdd"):
         compiled.advance(dq[0], 0.02, s[0])
@@ -113,7 +111,7 @@ def test_the_c_steps_lags_as_the_equations_say(precision: Literal["double", "sin
     # Along a motion: the log as it is read, and the C one sample after the other.
     time = 0.02 * np.arange(200)
     motion = np.stack([np.sin(time[:, None] * [1.0, 2.0, 3.0] + 0.1 * k) for k in range(3)])
-    read = compute_signals_along(compiled, motion, time, lambda joint: time)
+    read = segments.compute_signals_along(compiled, motion, time, lambda joint: time)
     assert read is not None
     state = read[0]
     assert state[3] == state[4]  # steady at the start

@@ -1,7 +1,6 @@
 """Effects that a robot file defines: their columns in the emitted C against numpy."""
 
 from collections.abc import Callable
-from typing import Literal
 
 import numpy as np
 import pytest
@@ -51,9 +50,7 @@ OWN: dict[str, tuple[dict, dict[str, float], Columns]] = {
 }
 
 
-def arm_with(
-    name: str, definition: dict, shapes: dict[str, float], reference: bool = False
-) -> Robot:
+def arm_with(name, definition, shapes, reference=False):
     """The demonstration arm with the effect on joint 2."""
     text = insert_effect(
         define_effect(load("demo-arm"), name, **definition).text, name, "2", shapes
@@ -98,9 +95,7 @@ def test_c_computes_the_equation_of_the_robot_file(name: str) -> None:
 
 
 @pytest.mark.parametrize("precision", ["double", "single"])
-def test_an_equation_reads_the_motion_of_other_joints(
-    precision: Literal["double", "single"],
-) -> None:
+def test_an_equation_reads_the_motion_of_other_joints(precision):
     """Tiles, scalar functions and friction alone, against numpy."""
     columns = {"Kl": "v*exp(-(q3/w)**2)", "Km": "a1*sin(q) + v3*abs(v1)"}
     robot = arm_with("leaning", {"columns": columns, "shapes": {"w": [0.5, 1]}}, {"w": 0.8})
@@ -110,10 +105,12 @@ def test_an_equation_reads_the_motion_of_other_joints(
     q, v, a = np.random.default_rng(13).uniform(-2.0, 2.0, (3, SAMPLES, 3))
     phi = compiled.regressor(q, v, a)
     got = columns_of(robot, "leaning", compiled, phi)
-    wanted = np.column_stack([
-        v[:, 1] * np.exp(-((q[:, 2] / 0.8) ** 2)),
-        a[:, 0] * np.sin(q[:, 1]) + v[:, 2] * np.abs(v[:, 0]),
-    ])  # fmt: skip
+    wanted = np.column_stack(
+        [
+            v[:, 1] * np.exp(-((q[:, 2] / 0.8) ** 2)),
+            a[:, 0] * np.sin(q[:, 1]) + v[:, 2] * np.abs(v[:, 0]),
+        ]
+    )
     close = (
         {"rtol": 1e-12, "atol": 1e-14} if precision == "double" else {"rtol": 2e-5, "atol": 1e-6}
     )

@@ -4,17 +4,12 @@ from functools import reduce
 
 import numpy as np
 
-from modeler.numerics.least_squares import (
-    compress_rows,
-    compute_whitening,
-    merge_compressed,
-    solve_scaled_least_squares,
-)
+from modeler.numerics import least_squares
 
 
 def test_a_direction_that_is_not_seen_gets_nothing() -> None:
     twice = np.array([[1.0, 2.0], [2.0, 4.0], [3.0, 6.0]])
-    beta = solve_scaled_least_squares(twice, twice @ [1.0, 1.0], 1e-8)
+    beta = least_squares.solve_scaled_least_squares(twice, twice @ [1.0, 1.0], 1e-8)
     assert np.allclose(beta, [1.5, 0.75])  # of least length, columns of length one
 
 
@@ -23,11 +18,12 @@ def test_whitening_is_a_root_of_the_pseudo_inverse() -> None:
     W = np.random.default_rng(4).normal(size=(30, 4)) * units
     W[:, 3] = 0.0
     gram = W.T @ W
-    turn = compute_whitening(gram, 1e-11)
+    turn = least_squares.compute_whitening(gram, 1e-11)
     assert turn.shape == (4, 3)
     assert np.allclose(turn.T @ gram @ turn, np.eye(3), atol=1e-12)
-    assert np.allclose(gram @ turn @ turn.T @ gram / np.outer(units, units),
-                       gram / np.outer(units, units))  # fmt: skip
+    assert np.allclose(
+        gram @ turn @ turn.T @ gram / np.outer(units, units), gram / np.outer(units, units)
+    )
 
 
 def test_merged_triangles_have_the_singular_values_of_all_rows():
@@ -39,8 +35,8 @@ def test_merged_triangles_have_the_singular_values_of_all_rows():
     y = W @ rng.standard_normal(len(names)) + 1e-3 * rng.standard_normal(count)
     joint = np.arange(count) % 2
     pieces = np.split(np.arange(count), [3, 4, 4, 150])
-    parts = [compress_rows(W[own], y[own], joint[own], 2, names) for own in pieces]
-    found = reduce(merge_compressed, parts)
+    parts = [least_squares.compress_rows(W[own], y[own], joint[own], 2, names) for own in pieces]
+    found = reduce(least_squares.merge_compressed, parts)
     assert found.rows.tolist() == [200, 200]
     for j in range(2):
         stacked = np.column_stack([W, y])[joint == j]

@@ -129,8 +129,10 @@ def test_placeholders_have_no_prior_and_are_told_by_name():
     values |= {"XX3": 5.0 * odd["XX3"], "YY3": 0.1 * odd["YY3"]}
     prior = build_prior(spec_of(values, {"inertial": 0.1}))
     assert prior.skipped_bodies == {
-        "link 1": "mass of 0", "link 2": "identity inertia", "link 3": "not physically possible"
-    }  # fmt: skip
+        "link 1": "mass of 0",
+        "link 2": "identity inertia",
+        "link 3": "not physically possible",
+    }
     assert not prior.groups and build_prior(spec_of(NOMINAL)) is None
     told = " ".join(prior.format_sentences(np.zeros(3)))
     assert "link 1 (mass of 0), link 2 (identity inertia), link 3 (not phys" in told
@@ -236,8 +238,10 @@ def test_a_load_is_found_beside_the_prior_of_the_robot(model):
         chi = true_chi(300 + seed)
         body = ten_of_points(rng.uniform(0.5, 1.5, 6), rng.uniform(0.1, 0.5, (6, 3)))
         loaded = chi | {f"{p}3": chi[f"{p}3"] + value for p, value in body.items()}
-        logs = [log_of(model, values, seed, name=name)
-                for values, name in ((chi, "bare.csv"), (loaded, "loaded.csv"))]  # fmt: skip
+        logs = [
+            log_of(model, values, seed, name=name)
+            for values, name in ((chi, "bare.csv"), (loaded, "loaded.csv"))
+        ]
         carried = [Payload(("loaded.csv",))]
         fit = identify_with_payloads(model, observe(model, logs), carried)
         assert not fit.contradicted and max(p.prior for p in fit.parameters) > 0.5

@@ -19,9 +19,11 @@ measured    training and held-out error, seconds, on the logs of real machines
 def parser() -> argparse.ArgumentParser:
     """Options."""
     made = argparse.ArgumentParser(
-        "python -m tests.estimators", description=__doc__, epilog=EPILOG,
+        "python -m tests.estimators",
+        description=__doc__,
+        epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
-    )  # fmt: skip
+    )
     commands = made.add_subparsers(dest="command", required=True, metavar="COMMAND")
     one = commands.add_parser("coverage", help="sigmas against repetition")
     one.add_argument("--seeds", type=int, default=50, help="machines; default: %(default)s")

@@ -7,7 +7,6 @@ Each seed is another machine, another motion, other noise: a two-link arm whose 
 import dataclasses
 import re
 import time
-from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
@@ -109,9 +108,14 @@ def measured(seed: int, case: str) -> tuple[Log, np.ndarray]:
     file = parse_robot_text(machine(seed), f"machine {seed}")
     robot = file if how.robot == TWO_LINK else api.load(how.robot)
     settings = SimulationSettings(
-        duration=how.duration, rate=how.rate, seed=seed, parameter_seed=seed, controller=True,
-        torque_noise=how.noise, encoder_counts=how.counts,
-    )  # fmt: skip
+        duration=how.duration,
+        rate=how.rate,
+        seed=seed,
+        parameter_seed=seed,
+        controller=True,
+        torque_noise=how.noise,
+        encoder_counts=how.counts,
+    )
     run, model = simulate(robot, settings), compiled(how.robot)
     chi = np.array([run.truth.parameters[parameter.name] for parameter in model.spec.standard])
     tau = with_bursts(run.tau, how, np.random.default_rng([seed, 88]))
@@ -132,9 +136,7 @@ def with_bursts(tau: np.ndarray, how: Case, rng: np.random.Generator) -> np.ndar
 _Row = tuple[np.ndarray, np.ndarray, float]
 
 
-def covered(
-    seeds: Sequence[int], case: str, methods: Sequence[str], jobs: int = 1
-) -> dict[str, Covered]:
+def covered(seeds, case, methods, jobs=1):
     """Every method on every seed, in so many processes."""
     given = [(seed, case, tuple(methods)) for seed in seeds]
     if jobs == 1:

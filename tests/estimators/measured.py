@@ -46,8 +46,15 @@ def lines(name: str, found: Sequence[MethodResult]) -> str:
         )
         remarks = "; ".join(own.fit.estimator_notes)
         held_out = "" if own.held_out_error is None else f"{100 * own.held_out_error:.2f}"
-        rows.append([
-            name, own.method, f"{100 * own.fit.relative_error:.2f}", held_out, far,
-            f"{own.seconds:.1f}", remarks,
-        ])  # fmt: skip
+        rows.append(
+            [
+                name,
+                own.method,
+                f"{100 * own.fit.relative_error:.2f}",
+                held_out,
+                far,
+                f"{own.seconds:.1f}",
+                remarks,
+            ]
+        )
     return "\n".join("| " + " | ".join(row) + " |" for row in rows)

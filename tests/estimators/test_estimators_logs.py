@@ -21,7 +21,7 @@ from tests.chain import chain_of
 from tests.estimators.__main__ import main as suite
 from tests.estimators.coverage import compiled, covered, measured, table
 from tests.estimators.measured import tried
-from tests.rotation import rotating, slow_rotating
+from tests.rotation import rotating, slow_rotating, with_cases
 
 FOLLOWED = tuple(method for method in METHODS if method.startswith(("iv-direct", "didim")))
 
@@ -253,9 +253,14 @@ def pieces(seed):
     rows = rows[np.arange(len(rows)) % 60 < 47]
     q = clean.q[rows] + 1e-3 * random.normal(size=(len(rows), 2))
     return Log(
-        "pieces", log.joints, clean.time[rows], q, log.tau[rows],
-        qd=clean.qd[rows], qdd=clean.qdd[rows],
-    )  # fmt: skip
+        "pieces",
+        log.joints,
+        clean.time[rows],
+        q,
+        log.tau[rows],
+        qd=clean.qd[rows],
+        qdd=clean.qdd[rows],
+    )
 
 
 @slow_rotating("estimators on logs")
@@ -324,21 +329,19 @@ def test_the_command_shows_a_refusal_in_its_row(folder, capsys, tmp_path):
 ROBUST = "fit emps a.csv --method didim-robust --out m"
 
 
-@pytest.mark.parametrize(
-    ("words", "line"),
-    [
-        ("estimators magic", "estimators: got magic; expected one of weighted"),
-        ("fit emps a.csv --method all --out m", "--out: got it with --method"),
-        ("fit emps a.csv --method iv,ridge --model energy", "--model: got it"),
-        (f"{ROBUST} --model energy", "energy model does not take method didim-robust"),
-        (f"{ROBUST} --robot-out r", "--robot-out: --method didim-robust ends in base parameters"),
-        ("fit emps a.csv --out m --holdout b.csv", "--holdout: got it with"),
-        (f"{ROBUST} --payload-log a.csv", "method didim-robust takes no logs with a load"),
-        (
-            "fit emps a.csv --method two-step --payload-log a.csv --out m",
-            "method two-step takes no logs with a load",
-        ),
-    ],
+@with_cases(
+    "words, line",
+    ("estimators magic", "estimators: got magic; expected one of weighted"),
+    ("fit emps a.csv --method all --out m", "--out: got it with --method"),
+    ("fit emps a.csv --method iv,ridge --model energy", "--model: got it"),
+    (f"{ROBUST} --model energy", "energy model does not take method didim-robust"),
+    (f"{ROBUST} --robot-out r", "--robot-out: --method didim-robust ends in base parameters"),
+    ("fit emps a.csv --out m --holdout b.csv", "--holdout: got it with"),
+    (f"{ROBUST} --payload-log a.csv", "method didim-robust takes no logs with a load"),
+    (
+        "fit emps a.csv --method two-step --payload-log a.csv --out m",
+        "method two-step takes no logs with a load",
+    ),
 )
 def test_bad_input_is_one_line(words, line, capsys):
     assert main(words.split()) == 1

@@ -27,9 +27,11 @@ ROWS = (120, 80)
 def problem_of(W, y, joint):
     """As much of an observation as these estimators look at, and its rows."""
     seen = SimpleNamespace(
-        row_joint=joint, joints=[SimpleNamespace(name=name) for name in "12"],
-        names=("A", "B", "C", "D"), logs=("made up",),
-    )  # fmt: skip
+        row_joint=joint,
+        joints=[SimpleNamespace(name=name) for name in "12"],
+        names=("A", "B", "C", "D"),
+        logs=("made up",),
+    )
     data = compress_rows(W, y, joint, len(ROWS), seen.names)
     return Problem(seen, W, y, np.ones(len(y), dtype=bool), seen.names, data)
 

@@ -8,7 +8,7 @@ import numpy as np
 from modeler.api import compile_model, derive, generate
 from modeler.api.motion_bounds import build_bounds
 from modeler.derivation.assembly_modes import complete_home
-from modeler.excitation import ExcitationTask, MotionBounds, MotionRequest, build_task
+from modeler.excitation import ExcitationTask, MotionRequest, build_task
 from modeler.robot import Robot, read_robot
 from modeler.runtime.model import CompiledModel
 
@@ -21,9 +21,7 @@ def robot(name: str) -> tuple[Robot, CompiledModel]:
     return found, compile_model(generate(derive(found)))
 
 
-def limits_of(
-    name: str, limits: tuple[str, ...] = (), boxes: tuple[str, ...] = ()
-) -> tuple[CompiledModel, MotionBounds]:
+def limits_of(name, limits=(), boxes=()):
     """The robot compiled, and its limits as the command line takes them."""
     found, compiled = robot(name)
     return compiled, build_bounds(found, compiled, limits, boxes)

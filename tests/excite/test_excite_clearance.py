@@ -23,6 +23,7 @@ from modeler.robot import parse_robot_text, read_robot
 from modeler.views.robot_skeleton import build_skeleton, compute_poses
 from tests.chain import chain_of
 from tests.excite.robots_to_excite import robot as built_in
+from tests.rotation import with_cases
 
 CAPSULES = {
     "0": (0.1, (0, 0, -0.5), (0, 0, -0.05)),
@@ -212,17 +213,15 @@ def test_loops_are_kept_clear_too():
     )
 
 
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        ('columns = ["row"]\nrows = []', "row, radius and any of x0"),
-        ('columns = ["row", "radius"]\nrows = [["9", 0.1]]', "the name of a row"),
-        ('columns = ["row", "radius"]\nrows = [["1", 0]]', "a length above 0"),
-        ('columns = ["row", "radius"]\nrows = [["1", 0.1, 2]]', "2"),
-        ("planes = {floor = [0, 0, 0, 1]}", "the normal (0, 0, 0)"),
-        ("planes = {floor = [0, 0, 1]}", "[x, y, z, offset]"),
-        ("radius = 3", "radius"),
-    ],
+@with_cases(
+    "text, told",
+    ('columns = ["row"]\nrows = []', "row, radius and any of x0"),
+    ('columns = ["row", "radius"]\nrows = [["9", 0.1]]', "the name of a row"),
+    ('columns = ["row", "radius"]\nrows = [["1", 0]]', "a length above 0"),
+    ('columns = ["row", "radius"]\nrows = [["1", 0.1, 2]]', "2"),
+    ("planes = {floor = [0, 0, 0, 1]}", "the normal (0, 0, 0)"),
+    ("planes = {floor = [0, 0, 1]}", "[x, y, z, offset]"),
+    ("radius = 3", "radius"),
 )
 def test_one_line_for_capsules_that_cannot_be(text, told):
     with pytest.raises(RobotError) as caught:

@@ -85,10 +85,12 @@ def test_a_model_is_excited_in_its_essential_parameters(capsys, folder, tmp_path
 @pytest.mark.rotating("long tests of excite")
 def test_two_effects_are_told_apart_better_than_by_chance(capsys, folder, tmp_path):
     status, out, err = run(
-        capsys, "excite", folder / "m.json", "--duration", 4, "--harmonics", 3, "--starts", 1,
-        "--between", "load_friction@2,position_friction@2",
-        "--out", tmp_path / "b.csv", "--json", tmp_path / "b.json",
-    )  # fmt: skip
+        capsys,
+        *f"""
+            excite {folder}/m.json --duration 4 --harmonics 3 --starts 1 --between
+            load_friction@2,position_friction@2 --out {tmp_path}/b.csv --json {tmp_path}/b.json
+        """.split(),
+    )
     assert (status, err) == (0, "") and "load_friction@2" in out
     found = json.loads((tmp_path / "b.json").read_text())["discrimination"]
     gains = [effect["gain"] for effect in found.values()]

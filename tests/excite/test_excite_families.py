@@ -128,11 +128,13 @@ def recordings():
     t = np.arange(0.0, 12.0, 1.0 / RATE)
     waves = [(1.0, 2.1, 0.3, 0.9, 3.7), (0.7, 1.7, 1.0, 0.2, 4.1), (0.02, 2.3, 0.1, 0.02, 3.1)]
     parts = [
-        [a * np.sin(w * t + p) + b * np.sin(v * t),
-         a * w * np.cos(w * t + p) + b * v * np.cos(v * t),
-         -a * w**2 * np.sin(w * t + p) - b * v**2 * np.sin(v * t)]
+        [
+            a * np.sin(w * t + p) + b * np.sin(v * t),
+            a * w * np.cos(w * t + p) + b * v * np.cos(v * t),
+            -a * w**2 * np.sin(w * t + p) - b * v**2 * np.sin(v * t),
+        ]
         for a, w, p, b, v in waves
-    ]  # fmt: skip
+    ]
     old = record("old", t, *(np.column_stack([part[k] for part in parts]) for k in range(3)))
     return robot, compiled, record, old
 

@@ -12,12 +12,7 @@ from modeler.excitation import MotionRequest, build_task, design_motion, draw_ra
 from modeler.excitation.series import MotionColumns, build_series, compute_condition
 from modeler.robot.edit import replace_gravity
 from modeler.robot.read import parse_robot_text, read_builtin_robot
-from modeler.simulation.closing import (
-    build_constraints,
-    compute_closed_postures,
-    compute_rates,
-    compute_singularity_distances,
-)
+from modeler.simulation import closing
 from tests.excite.robots_to_excite import limits_of, plausible, robot
 from tests.rotation import ROTATING, rotating
 
@@ -83,12 +78,12 @@ def assert_not_faster(found, constraints, q, bounds):
     units = [angular & follow, ~angular & follow]
     sizes = []
     for places in (bounds.home[None, :], q[::40]):
-        v = compute_closed_postures(found, constraints, places)
+        v = closing.compute_closed_postures(found, constraints, places)
         speeds = []
         for j, half in enumerate(bounds.half_range):
             qd = np.zeros_like(places)
             qd[:, j] = half
-            speeds.append(compute_rates(constraints, v, qd, np.zeros_like(qd))[0])
+            speeds.append(closing.compute_rates(constraints, v, qd, np.zeros_like(qd))[0])
         squares = np.sum(np.array(speeds) ** 2, axis=0)
         sizes.append([np.sqrt(squares[:, unit].sum(axis=1)).max() for unit in units])
     assert np.all(np.array(sizes[1]) <= 2.0 * np.array(sizes[0]) + 1e-9)
@@ -106,12 +101,12 @@ def test_loops_close_all_along_away_from_singular_postures(name):
     compiled, bounds = limits_of(name, limits)
     motion = design_motion(compiled, bounds, MotionRequest(6.0, 4, starts=1))
     q, *_ = finely(motion)
-    constraints = build_constraints(found)
-    away = compute_singularity_distances(
-        constraints, compute_closed_postures(found, constraints, q)
+    constraints = closing.build_constraints(found)
+    away = closing.compute_singularity_distances(
+        constraints, closing.compute_closed_postures(found, constraints, q)
     )
-    home = compute_singularity_distances(
-        constraints, compute_closed_postures(found, constraints, bounds.home[None, :])
+    home = closing.compute_singularity_distances(
+        constraints, closing.compute_closed_postures(found, constraints, bounds.home[None, :])
     )[0]
     assert away.min() > 0.05 * home
     assert_not_faster(found, constraints, q, bounds)

@@ -8,35 +8,29 @@ import pytest
 from scipy.optimize import minimize, rosen, rosen_der
 
 from modeler.core.errors import DataError
-from modeler.excitation import choose_motions, draw_random_motion, separate as choosing
+from modeler.excitation import choose_motions, draw_random_motion, separate as choosing, series
 from modeler.excitation.search import BarrierProblem
-from modeler.excitation.series import (
-    CRITERIA,
-    build_series,
-    compute_condition,
-    compute_log_condition,
-    compute_log_det,
-)
 from modeler.numerics.least_squares import ObjectiveFunction, minimise_bfgs, minimise_cma_es
 from tests.excite.robots_to_excite import limits_of, small_task
+from tests.rotation import with_cases
 
 
 def test_between_samples_a_series_is_no_larger_than_its_room_says():
     rng = np.random.default_rng(2)
     for dense in (4, 16):
-        even = build_series(1.0, 4, dense=dense)
-        fine = build_series(1.0, 4, np.linspace(0.0, 1.0, 5000))
+        even = series.build_series(1.0, 4, dense=dense)
+        fine = series.build_series(1.0, 4, np.linspace(0.0, 1.0, 5000))
         for _ in range(50):
             x = rng.normal(size=(1, 7))
             assert np.abs(fine.values @ x.T).max() <= np.abs(even.values @ x.T).max() / even.room
 
 
-@pytest.mark.parametrize("criterion", CRITERIA)
+@pytest.mark.parametrize("criterion", series.CRITERIA)
 def test_slopes_of_the_criteria_are_their_derivatives(criterion):
     rng = np.random.default_rng(3)
     W, way = rng.normal(size=(2, 40, 6))
     W[:, 2] *= 1e3
-    function, h = CRITERIA[criterion], 1e-6
+    function, h = series.CRITERIA[criterion], 1e-6
     difference = (function(W + h * way)[0] - function(W - h * way)[0]) / (2 * h)
     assert np.sum(function(W)[1] * way) == pytest.approx(difference, rel=1e-5)
 
@@ -44,23 +38,21 @@ def test_slopes_of_the_criteria_are_their_derivatives(criterion):
 def test_the_criteria_are_what_they_are_called():
     W = np.random.default_rng(4).normal(size=(50, 5)) * [1, 10, 100, 0.1, 3]
     scaled = np.linalg.cond(W / np.linalg.norm(W, axis=0))
-    assert compute_condition(W) == pytest.approx(scaled)
-    assert compute_condition(W, scaled=False) == pytest.approx(np.linalg.cond(W))
-    assert compute_log_det(W) == pytest.approx(np.linalg.slogdet(W.T @ W)[1])
-    assert np.log(scaled) <= compute_log_condition(W)[0] <= np.log(scaled) + np.log(5) / 4
-    assert CRITERIA["information"](W)[0] == pytest.approx(-compute_log_det(W) / 10)
+    assert series.compute_condition(W) == pytest.approx(scaled)
+    assert series.compute_condition(W, scaled=False) == pytest.approx(np.linalg.cond(W))
+    assert series.compute_log_det(W) == pytest.approx(np.linalg.slogdet(W.T @ W)[1])
+    assert np.log(scaled) <= series.compute_log_condition(W)[0] <= np.log(scaled) + np.log(5) / 4
+    assert series.CRITERIA["information"](W)[0] == pytest.approx(-series.compute_log_det(W) / 10)
     W[:, 1] = 0.0
-    assert all(criterion(W)[0] == np.inf for criterion in CRITERIA.values())
+    assert all(criterion(W)[0] == np.inf for criterion in series.CRITERIA.values())
 
 
-@pytest.mark.parametrize(
-    ("name", "options"),
-    [
-        ("demo-arm", {"limited": 1e4, "boxes": ("3=-3,3,-3,3,-3,3",)}),
-        ("five-bar", {"limited": 1e4}),
-        pytest.param("wrist", {}, marks=pytest.mark.rotating),
-        pytest.param("3rrr", {}, marks=pytest.mark.rotating),
-    ],
+@with_cases(
+    "name, options",
+    ("demo-arm", {"limited": 1e4, "boxes": ("3=-3,3,-3,3,-3,3",)}),
+    ("five-bar", {"limited": 1e4}),
+    pytest.param("wrist", {}, marks=pytest.mark.rotating),
+    pytest.param("3rrr", {}, marks=pytest.mark.rotating),
 )
 def test_the_slope_of_the_search_is_the_derivative_of_its_value(name, options):
     task = small_task(name, **options)
@@ -121,7 +113,7 @@ def test_the_choice_is_the_best_of_all_subsets(monkeypatch):
     choice = choose_motions(rows, 3)
 
     def value(places):
-        return compute_condition(np.vstack([rows[k] for k in places]))
+        return series.compute_condition(np.vstack([rows[k] for k in places]))
 
     every = sorted(value(places) for places in itertools.combinations(range(9), 3))
     assert choice.is_exhaustive and choice.condition == pytest.approx(every[0])

@@ -19,9 +19,13 @@ columns = ["j", "a", "mu", "sigma", "alpha", "d", "theta"]
 rows = [["1", "0", 1, 0, "pi/2", 0, "q1"], ["2", "1", 1, 0, 0, "D2", "q2"]]
 """
 BOUNDS = MotionBounds(
-    ("1", "2"), np.array([-2.0, -1.5]), np.array([2.0, 1.5]), np.array([3.0, 2.0]),
-    np.array([12.0, 8.0]), np.array([np.inf, np.inf]),
-)  # fmt: skip
+    ("1", "2"),
+    np.array([-2.0, -1.5]),
+    np.array([2.0, 1.5]),
+    np.array([3.0, 2.0]),
+    np.array([12.0, 8.0]),
+    np.array([np.inf, np.inf]),
+)
 
 
 def smooth(rng: np.random.Generator, rate: float) -> tuple[np.ndarray, np.ndarray]:
@@ -104,12 +108,14 @@ def test_the_command_refuses_what_breaks_limits(tmp_path: Path, capsys) -> None:
     columns["q2"][500:] -= 1.37
     columns["qd1"][300] = 9.0  # what a controller reads of the speeds, though positions are smooth
     begun = {name: table[name][200:] for name in table.dtype.names}
-    twice = begun | {"time": np.where(np.arange(len(begun["time"])) == 7, begun["time"][6],
-                                      begun["time"])}  # fmt: skip
+    twice = begun | {
+        "time": np.where(np.arange(len(begun["time"])) == 7, begun["time"][6], begun["time"])
+    }
     for name, changed, words in (
-        ("speed", columns, "joint 1, 1.5 s: "), ("begun", begun, "speed at the start"),
+        ("speed", columns, "joint 1, 1.5 s: "),
+        ("begun", begun, "speed at the start"),
         ("time", twice, "row 9: time does not increase"),
-    ):  # fmt: skip
+    ):
         assert main([*check, write(tmp_path / f"{name}.csv", changed)]) == 1
         assert words in capsys.readouterr().err
     log = begun | {"tau1": begun["q1"], "tau2": begun["q2"]}  # a log may begin anywhere

@@ -65,8 +65,10 @@ def torques(robot: Robot, q, qd, qdd, without: tuple[str, ...] = ()) -> np.ndarr
     """Of our C, with nominal values; parameters that begin with one of `without` left out."""
     bare = dataclasses.replace(robot, parameters={}, text="", name="", frames={}, limits={})
     model = _compiled(repr(bare), bare)
-    chi = [0.0 if p.name.startswith(without) else robot.parameters.get(p.name, 0.0)
-           for p in model.spec.standard]  # fmt: skip
+    chi = [
+        0.0 if p.name.startswith(without) else robot.parameters.get(p.name, 0.0)
+        for p in model.spec.standard
+    ]
     return model.inverse_dynamics(q, qd, qdd, model.base_parameters(np.array(chi)))
 
 

@@ -13,6 +13,7 @@ from modeler.core.errors import BuildError
 from modeler.core.files import locate_resources
 from tests.csrc.emitted_folders import run as run_command
 from tests.modules import STRICT, compiler, loaded
+from tests.rotation import with_cases
 from tests.when_used import WhenUsed
 
 fmpy = WhenUsed("fmpy", "NOT CHECKED: no FMPy")
@@ -99,9 +100,16 @@ def run(unit, kind: str, torques, **options) -> np.ndarray:
     start = dict(zip(states, state, strict=True)) | {"step": 5e-4}
     start |= {f"width{name}": WIDTH for name in plant.coulomb}
     found = fmpy.simulate_fmu(
-        str(place), stop_time=LENGTH, output_interval=STEP, fmi_type=kind, input=given,
-        start_values=start, output=states, validate=True, **options,
-    )  # fmt: skip
+        str(place),
+        stop_time=LENGTH,
+        output_interval=STEP,
+        fmi_type=kind,
+        input=given,
+        start_values=start,
+        output=states,
+        validate=True,
+        **options,
+    )
     assert np.allclose(found["time"], times)
     return np.column_stack([found[name] for name in states])
 
@@ -123,9 +131,14 @@ def test_model_exchange_follows_the_equations(unit) -> None:
     torques = np.broadcast_to(torques[7], torques.shape)  # FMPy's solver looks beyond a step
     found = run(unit, "ModelExchange", torques, relative_tolerance=1e-10)
     ours = solve_ivp(
-        lambda _, x: plant.slope(x, torques[0]), (0, LENGTH), state, "DOP853", times,
-        rtol=1e-10, atol=1e-12,
-    )  # fmt: skip
+        lambda _, x: plant.slope(x, torques[0]),
+        (0, LENGTH),
+        state,
+        "DOP853",
+        times,
+        rtol=1e-10,
+        atol=1e-12,
+    )
     assert np.abs(found - state).max() > 1e-2
     assert np.abs(found - ours.y.T).max() < 1e-6 * np.abs(ours.y).max()
 
@@ -148,9 +161,11 @@ def opened(unit, folder, messages: list[str]):
     unpacked = fmpy.extract(str(unit[0]), str(folder))
     description = fmpy.read_model_description(unpacked)
     slave = fmpy.fmi3.FMU3Slave(
-        guid=description.guid, unzipDirectory=unpacked, instanceName="robot",
+        guid=description.guid,
+        unzipDirectory=unpacked,
+        instanceName="robot",
         modelIdentifier=description.coSimulation.modelIdentifier,
-    )  # fmt: skip
+    )
     slave.log = fmpy.fmi3.fmi3LogMessageCallback(  # lives as long as it may be called
         lambda environment, status, category, message: messages.append(message.decode())
     )
@@ -158,14 +173,12 @@ def opened(unit, folder, messages: list[str]):
     return slave, {v.name: v.valueReference for v in description.modelVariables}
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "words"),
-    [
-        ("tau", np.nan, "is not finite"),
-        ("width", 0.0, "widths of the Coulomb friction must be positive"),
-        ("step", -1e-3, "step must be positive"),
-        ("qdd", 1.0, "time and derivatives cannot be set"),
-    ],
+@with_cases(
+    "name, value, words",
+    ("tau", np.nan, "is not finite"),
+    ("width", 0.0, "widths of the Coulomb friction must be positive"),
+    ("step", -1e-3, "step must be positive"),
+    ("qdd", 1.0, "time and derivatives cannot be set"),
 )
 def test_values_that_make_no_sense_are_refused(unit, tmp_path, name, value, words) -> None:
     messages: list[str] = []

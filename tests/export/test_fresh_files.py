@@ -36,8 +36,11 @@ def a_body(rng: np.random.Generator) -> np.ndarray:
 def tree() -> Robot:
     rng = np.random.default_rng()
     prefixes = ["XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M"]
-    lines = [f"{p}{row} = {x!r}" for row in "12345"
-             for p, x in zip(prefixes, a_body(rng).tolist(), strict=True)]  # fmt: skip
+    lines = [
+        f"{p}{row} = {x!r}"
+        for row in "12345"
+        for p, x in zip(prefixes, a_body(rng).tolist(), strict=True)
+    ]
     lines += [f"{p}{row} = {rng.uniform(0.1, 2.0)!r}" for row in "1234" for p in ("Fv", "Ia")]
     return parse_robot_text(TREE + "\n".join([*lines, "Ks3 = 7.5"]), "tree.toml")
 
@@ -181,9 +184,13 @@ def test_a_moving_link_without_mass_is_told_and_taken_by_mujoco(tmp_path) -> Non
 
 def rigid(robot: Robot) -> Robot:
     """Bodies alone."""
-    return dataclasses.replace(robot, effects=(), parameters={
-        k: x for k, x in robot.parameters.items() if not k.startswith(("Fv", "Fs", "Ia", "Off"))
-    })  # fmt: skip
+    return dataclasses.replace(
+        robot,
+        effects=(),
+        parameters={
+            k: x for k, x in robot.parameters.items() if not k.startswith(("Fv", "Fs", "Ia", "Off"))
+        },
+    )
 
 
 def test_a_body_too_small_for_mujoco_is_told(tmp_path) -> None:

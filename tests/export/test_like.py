@@ -23,9 +23,9 @@ from tests.export.arms import (
     without_comment,
     without_numbers,
     written,
-)  # fmt: skip
+)
 from tests.robot.public_robots import each_public_urdf, public_urdf
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 pytest.importorskip("mujoco", reason="NOT CHECKED: no MuJoCo")
 ARMS = {"arm.urdf": URDF, "arm.xml": MJCF}
@@ -160,11 +160,12 @@ def test_a_table_without_frames_is_matched_by_its_geometry(urdf, tmp_path) -> No
     refused("link fore is placed otherwise on upper", robot, longer)
 
 
-@pytest.mark.parametrize(("old", "new", "word"), [
+@with_cases(
+    "old, new, word",
     (b'xyz="0.05 0 0.3"', b'xyz="0.05 0 0.31"', "link fore is placed otherwise on upper"),
     (b'axis xyz="0 0 -1"', b'axis xyz="0 0 1"', "link fore is placed otherwise on upper"),
     (b'"tool"', b'"gripper"', "it has no link tool"),
-])  # fmt: skip
+)
 def test_another_robot_is_refused(urdf, tmp_path, old, new, word) -> None:
     refused(word, read_robot(urdf), written(tmp_path, "other.urdf", URDF.replace(old, new)))
 
@@ -183,15 +184,20 @@ def test_another_gravity_is_told(urdf, mjcf, tmp_path) -> None:
         assert bool(notes) == bool(says) and all(says in note for note in notes)
 
 
-@pytest.mark.parametrize(("first", "second", "word"), [
+@with_cases(
+    "first, second, word",
     (b"", b'<mimic joint="shoulder"/>', "joint elbow follows shoulder there, and is free"),
     (b'<mimic joint="shoulder"/>', b"", "joint elbow is free there, and follows"),
-    (b'<mimic joint="shoulder" offset="0.1"/>', b'<mimic joint="shoulder" multiplier="2"/>',
-     "joint elbow follows shoulder otherwise"),
-])  # fmt: skip
+    (
+        b'<mimic joint="shoulder" offset="0.1"/>',
+        b'<mimic joint="shoulder" multiplier="2"/>',
+        "joint elbow follows shoulder otherwise",
+    ),
+)
 def test_joints_that_follow_otherwise_are_refused(tmp_path, first, second, word) -> None:
-    texts = [URDF.replace(b'<axis xyz="0 0 -1"/>', b'<axis xyz="0 0 -1"/>' + x)
-             for x in (first, second)]  # fmt: skip
+    texts = [
+        URDF.replace(b'<axis xyz="0 0 -1"/>', b'<axis xyz="0 0 -1"/>' + x) for x in (first, second)
+    ]
     one, other = (written(tmp_path, f"{k}.urdf", text) for k, text in enumerate(texts))
     robot = read_robot(one)
     assert export(robot, like=one).data == texts[0]
@@ -236,17 +242,23 @@ def test_only_changed_numbers_are_listed(urdf, tmp_path, capsys) -> None:
     assert "slide" in text and "mass" not in text.split("cannot hold")[0]
 
 
-@pytest.mark.parametrize(("name", "old", "new", "word"), [
+@with_cases(
+    "name, old, new, word",
     ("a.xml", b'angle="degree"', b'angle="degree" inertiafromgeom="true"', 'write "auto" there'),
     ("a.xml", b'angle="degree"', b'angle="degree" settotalmass="9"', "settotalmass changes"),
     ("a.xml", b'armature="0.05"', b'springdamper="1 1"', "springdamper makes damping"),
     ("a.xml", b'gear="2"', b'gear="2" armature="0.1"', "actuators state armature or damping"),
     ("a.txt", MJCF, b"<x/>", r"expected <robot> \(URDF\)"),
     ("a.urdf", MJCF, URDF, "URDF, and --to or the ending of --out says mjcf"),
-])  # fmt: skip
+)
 def test_what_cannot_be_replaced_is_refused(mjcf, tmp_path, name, old, new, word) -> None:
-    base = MJCF if new == URDF else MJCF.replace(b'fullinertia="0.0004 0.0004 0.0002 1e-5 0 0"',
-                                                 b'diaginertia="0.0004 0.0004 0.0002"')  # fmt: skip
+    base = (
+        MJCF
+        if new == URDF
+        else MJCF.replace(
+            b'fullinertia="0.0004 0.0004 0.0002 1e-5 0 0"', b'diaginertia="0.0004 0.0004 0.0002"'
+        )
+    )
     place = written(tmp_path, name, new if old == MJCF else base.replace(old, new))
     refused(word, other_values(mjcf), place, "mjcf" if name.endswith("urdf") else None)
 

@@ -9,7 +9,7 @@ from modeler.api import derive, export, generate, load
 from modeler.robot import Robot, parse_robot_text
 from tests.codegen.fitted_library import robot_text
 from tests.modules import loaded
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, with_cases
 
 mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: no MuJoCo")
 
@@ -23,8 +23,11 @@ PARTIAL = robot_text("half-said")
 
 def stated(robot: Robot) -> Robot:
     """Without dry friction and offsets, which are no forces of MuJoCo's inverse dynamics."""
-    lines = [line for line in robot.text.splitlines()
-             if not re.match(r'"?(Fs|Off)\w*(\{i\})?"? *=', line)]  # fmt: skip
+    lines = [
+        line
+        for line in robot.text.splitlines()
+        if not re.match(r'"?(Fs|Off)\w*(\{i\})?"? *=', line)
+    ]
     return parse_robot_text("\n".join(lines), robot.name)
 
 
@@ -72,9 +75,10 @@ def follow(robot: Robot, model, at: list[int], G: np.ndarray) -> np.ndarray:
 
 def set_followers(robot: Robot, model, data) -> None:
     for name, slopes, constant in lines_of(robot):
-        own, others = model.joint(f"joint_{name}").dofadr[0], [
-            (model.joint(f"joint_{k}").dofadr[0], c) for k, c in slopes.items()
-        ]  # fmt: skip
+        own, others = (
+            model.joint(f"joint_{name}").dofadr[0],
+            [(model.joint(f"joint_{k}").dofadr[0], c) for k, c in slopes.items()],
+        )
         for array, offset in ((data.qpos, constant), (data.qvel, 0.0), (data.qacc, 0.0)):
             array[own] = offset + sum(c * array[k] for k, c in others)
 
@@ -92,15 +96,13 @@ def lines_of(robot: Robot):
         yield name, slopes, constant
 
 
-@pytest.mark.parametrize(
-    ("name", "tolerance"),
-    [
-        ("five-bar", 1e-11),
-        *(
-            pytest.param(name, 1e-9, marks=ROTATING)
-            for name in ("orthoglide-2003", "stewart", "delta", "3rrr", "evra")
-        ),
-    ],
+@with_cases(
+    "name, tolerance",
+    ("five-bar", 1e-11),
+    *(
+        pytest.param(name, 1e-9, marks=ROTATING)
+        for name in ("orthoglide-2003", "stewart", "delta", "3rrr", "evra")
+    ),
 )
 def test_torques_in_mujoco_are_those_of_the_c(name: str, tolerance: float) -> None:
     assert apart(stated(load(name)), 3) < tolerance

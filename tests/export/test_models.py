@@ -5,13 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
+from modeler import estimation
 from modeler.api import compile, export, identify, load, simulate
-from modeler.estimation import (
-    PREFIXES,
-    PhysicalParameters,
-    compute_pseudo_inertia,
-    extract_parameters,
-)
 from modeler.formats import read_robot
 from modeler.formats.bodies import Original, build_export_parameters
 from modeler.formats.completion import Prior, compute_completion, find_nearest_physical
@@ -131,7 +126,9 @@ def test_what_a_format_cannot_hold_is_told_with_its_share(tmp_path) -> None:
 
 def a_link(rng) -> np.ndarray:
     points = np.c_[rng.normal(scale=0.1, size=(9, 3)), np.ones(9)]
-    return extract_parameters(np.einsum("ki,k,kj->ij", points, rng.uniform(0.1, 0.4, 9), points))
+    return estimation.extract_parameters(
+        np.einsum("ki,k,kj->ij", points, rng.uniform(0.1, 0.4, 9), points)
+    )
 
 
 def test_the_nearest_machine_is_the_nearest() -> None:
@@ -140,17 +137,17 @@ def test_the_nearest_machine_is_the_nearest() -> None:
     ten = a_link(rng)
     K = np.zeros((4, 10))
     K[range(4), [0, 5, 6, 9]] = 1.0
-    machine = PhysicalParameters(tuple("abcdefghij"), K, {"1": np.arange(10)}, {})
+    machine = estimation.PhysicalParameters(tuple("abcdefghij"), K, {"1": np.arange(10)}, {})
     S = np.diag((0.3 * np.maximum(np.abs(ten), 0.01)) ** 2)
     beta = K @ ten
     beta[1] = -0.2 * beta[1]  # ZZ below 0
     C = np.diag((0.05 * np.abs(K @ ten)) ** 2)
     found = compute_completion(K, Prior(ten, S), beta, C)
     assert np.allclose(K @ found.chi, beta, rtol=1e-12)
-    size = {"1": np.linalg.inv(np.linalg.cholesky(compute_pseudo_inertia(ten)))}
+    size = {"1": np.linalg.inv(np.linalg.cholesky(estimation.compute_pseudo_inertia(ten)))}
     best = find_nearest_physical(machine, found, beta, C, size, {})
     assert best is not None and best.shift_in_sigmas > 1.0
-    assert np.linalg.eigvalsh(compute_pseudo_inertia(best.chi))[0] > 0.0
+    assert np.linalg.eigvalsh(estimation.compute_pseudo_inertia(best.chi))[0] > 0.0
     L = np.linalg.cholesky(found.covariance)
 
     def far(chi) -> float:
@@ -159,7 +156,7 @@ def test_the_nearest_machine_is_the_nearest() -> None:
     least = far(best.chi)
     for t in np.repeat(np.geomspace(1e-3, 1.0, 20), 100):
         chi = best.chi + t * L @ rng.normal(size=10)
-        if np.linalg.eigvalsh(compute_pseudo_inertia(chi))[0] > 1e-9:
+        if np.linalg.eigvalsh(estimation.compute_pseudo_inertia(chi))[0] > 1e-9:
             assert far(chi) > least * (1.0 - 1e-4)
 
 
@@ -188,7 +185,7 @@ def test_what_hangs_on_a_link_changes_only_where_it_must(tmp_path) -> None:
     robot = read_robot(place)
     masses = {}
     for share in (1.2, 0.5):
-        light = {f"{p}3": share * robot.parameters[f"{p}3"] for p in PREFIXES}
+        light = {f"{p}3": share * robot.parameters[f"{p}3"] for p in estimation.PREFIXES}
         truth = dataclasses.replace(robot, parameters=robot.parameters | light)
         model = identify(robot, simulate(truth, duration=6.0, rate=200.0, seed=5))
         found = export(model, like=place)

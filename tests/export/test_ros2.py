@@ -38,8 +38,18 @@ def test_the_core_tracks_a_motion_without_ros(package, tmp_path) -> None:
     sources = sorted((folder / "src").glob("*.c"))
     for source in sources:
         run("gcc", "-std=c99", "-O1", "-c", source, "-o", tmp_path / f"{source.stem}.o")
-    run("g++", "-std=c++17", "-O1", *WARNED, "-I", folder / "src", tmp_path / "harness.cpp",
-        *tmp_path.glob("*.o"), "-o", tmp_path / "harness")  # fmt: skip
+    run(
+        "g++",
+        "-std=c++17",
+        "-O1",
+        *WARNED,
+        "-I",
+        folder / "src",
+        tmp_path / "harness.cpp",
+        *tmp_path.glob("*.o"),
+        "-o",
+        tmp_path / "harness",
+    )
     right, largest, *told = map(float, run(tmp_path / "harness", 1.0, 0.0).split())
     wrong = float(run(tmp_path / "harness", 0.7, 0.0).split()[0])
     assert right < 2e-3 < wrong  # rad; it begins 0.1 rad away
@@ -50,8 +60,18 @@ def test_the_core_tracks_a_motion_without_ros(package, tmp_path) -> None:
 
 def test_the_controller_compiles_on_stand_ins_of_ros(package, tmp_path) -> None:
     _, folder = package
-    run("g++", "-std=c++17", "-fsyntax-only", *WARNED, "-Wno-sign-conversion", "-isystem",
-        ROS2 / "headers", "-I", folder / "src", folder / "src" / "controller.cpp")  # fmt: skip
+    run(
+        "g++",
+        "-std=c++17",
+        "-fsyntax-only",
+        *WARNED,
+        "-Wno-sign-conversion",
+        "-isystem",
+        ROS2 / "headers",
+        "-I",
+        folder / "src",
+        folder / "src" / "controller.cpp",
+    )
 
 
 def test_the_files_name_one_another(package) -> None:

@@ -8,6 +8,7 @@ from modeler.core.choices import ABOUT, Method, find_estimator_title
 from modeler.core.errors import DataError
 from modeler.estimation.identify import METHODS, find_method, find_methods
 from tests.repository import ROOT
+from tests.rotation import with_cases
 
 
 def test_choices_words_and_functions_are_the_same_list():
@@ -18,13 +19,11 @@ def test_choices_words_and_functions_are_the_same_list():
         assert all((about.law, about.source, about.limitations, about.motion))
 
 
-@pytest.mark.parametrize(
-    ("method", "of", "sentence"),
-    [
-        ("magic", "rows", 'method is "magic"; expected weighted'),
-        ("robust", "triangles", "method robust reads every row again .* expected weighted or or"),
-        ("robust", "windows", "--method robust: the energy model takes weighted or ordinary; leav"),
-    ],
+@with_cases(
+    "method, of, sentence",
+    ("magic", "rows", 'method is "magic"; expected weighted'),
+    ("robust", "triangles", "method robust reads every row again .* expected weighted or or"),
+    ("robust", "windows", "--method robust: the energy model takes weighted or ordinary; leav"),
 )
 def test_what_an_estimator_does_not_work_on_is_refused(method, of, sentence):
     assert (

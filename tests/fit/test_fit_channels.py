@@ -45,24 +45,38 @@ def unit(machine, j):
 
 
 MISTAKES = {
-    "all units": (lambda c, q, tau, j, k: q.__imul__([unit(c, i) for i in range(len(q[0]))]),
-                  "the positions look like degrees"),
+    "all units": (
+        lambda c, q, tau, j, k: q.__imul__([unit(c, i) for i in range(len(q[0]))]),
+        "the positions look like degrees",
+    ),
     "unit": (lambda c, q, tau, j, k: q[:, j].__imul__(unit(c, j)), "its position looks like"),
     "position sign": (lambda c, q, tau, j, k: q[:, j].__imul__(-1.0), "sign"),
-    "positions": (lambda c, q, tau, j, k: q.__setitem__(np.s_[:, [j, k]], q[:, [k, j]]),
-                  "positions look exchanged"),
-    "torques": (lambda c, q, tau, j, k: tau.__setitem__(np.s_[:, [j, k]], tau[:, [k, j]]),
-                "torques look exchanged"),
+    "positions": (
+        lambda c, q, tau, j, k: q.__setitem__(np.s_[:, [j, k]], q[:, [k, j]]),
+        "positions look exchanged",
+    ),
+    "torques": (
+        lambda c, q, tau, j, k: tau.__setitem__(np.s_[:, [j, k]], tau[:, [k, j]]),
+        "torques look exchanged",
+    ),
     "zero": (lambda c, q, tau, j, k: q[:, j].__iadd__(np.pi / 2), "its zero seems to be off by 90"),
-    "turns": (lambda c, q, tau, j, k: q.__imul__([1 / (2 * np.pi) if unit(c, i) != 1e3 else 100.0
-                                                  for i in range(len(q[0]))]), "look like turns"),
+    "turns": (
+        lambda c, q, tau, j, k: q.__imul__(
+            [1 / (2 * np.pi) if unit(c, i) != 1e3 else 100.0 for i in range(len(q[0]))]
+        ),
+        "look like turns",
+    ),
     "twice": (lambda c, q, tau, j, k: tau[:, j].__imul__(2.0), "the measured torque is "),
-    "two signs": (lambda c, q, tau, j, k: tau.__setitem__(np.s_[:, [j, k]], -tau[:, [j, k]]),
-                  "the measured torques have the wrong sign"),
+    "two signs": (
+        lambda c, q, tau, j, k: tau.__setitem__(np.s_[:, [j, k]], -tau[:, [j, k]]),
+        "the measured torques have the wrong sign",
+    ),
     "torque sign": (lambda c, q, tau, j, k: tau[:, j].__imul__(-1.0), "sign"),
-    "all signs": (lambda c, q, tau, j, k: tau.__imul__(-1.0),
-                  "all measured torques have the wrong sign"),
-}  # fmt: skip
+    "all signs": (
+        lambda c, q, tau, j, k: tau.__imul__(-1.0),
+        "all measured torques have the wrong sign",
+    ),
+}
 
 
 UNSEEN = {"zero": "90 degrees", "twice": "scale error of 2", "torque sign": "wrong sign"}
@@ -177,10 +191,12 @@ def test_every_command_says_the_same(arm, capsys, mistake):
     log, own, told = arm / f"{mistake}.parquet", arm / f"{mistake}.json", arm / "told.json"
     pq.write_table(pa.table(columns), log)
     for words in (
-        f"fit demo-arm {log} --out {own} --json {told}", f"log {log} --robot demo-arm",
-        f"compare {arm}/m.json {log} --json {told}", f"diagnose {arm}/m.json {log}",
+        f"fit demo-arm {log} --out {own} --json {told}",
+        f"log {log} --robot demo-arm",
+        f"compare {arm}/m.json {log} --json {told}",
+        f"diagnose {arm}/m.json {log}",
         f"compare {own} {log} --json {told}",
-    ):  # fmt: skip
+    ):
         assert main(words.split()) == 0
         assert SAID[mistake] in capsys.readouterr().out, words
         assert any(SAID[mistake] in line for line in json.loads(told.read_text())["warnings"])

@@ -19,7 +19,7 @@ from modeler.robot.edit import replace_parameters
 from modeler.simulation.rigid import compute_pseudo_inertia
 from tests.bodies import buildable
 from tests.modules import compiled
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 
 @pytest.fixture(scope="module", params=["two-link", *rotating("five-bar")])
@@ -123,11 +123,7 @@ def test_a_machine_that_could_be_built_is_at_no_distance(name):
     assert found is not None and found.distance < 1e-2  # standard deviations
 
 
-@pytest.mark.parametrize(
-    ("name", "carrier", "rel"),
-    # ZZ2 is a base parameter by itself; however heavy link 2 is, ZZ2 M2 >= MX2^2 keeps it above 0.
-    [("Fv2", "Fv2", 1e-3), ("ZZ2", "2", 1e-2)],
-)
+@with_cases("name, carrier, rel", ("Fv2", "Fv2", 1e-3), ("ZZ2", "2", 1e-2))
 def test_a_value_below_zero_is_as_far_as_it_is_below_and_has_a_carrier(name, carrier, rel):
     machine, names, beta = buildable_two_link(42)
     place = names.index(name)

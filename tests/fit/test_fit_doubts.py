@@ -21,7 +21,7 @@ from modeler.simulation import HiddenEffect, SimulationSettings, parse_hidden_ef
 from tests.link_data import compiled as compiled_text
 from tests.modules import compiled, module
 from tests.robots import ROBOTS
-from tests.rotation import ROTATING, rotating
+from tests.rotation import ROTATING, rotating, with_cases
 
 
 @pytest.fixture(scope="module")
@@ -207,9 +207,10 @@ def test_every_command_that_takes_the_model_says_so(log, tmp_path, capsys):
     answer = json.loads((tmp_path / "out.json").read_text())
     assert answer["valid"] is False and answer["verdict"] in "\n".join(lines)
     for command in (
-        f"compare {model} {log}", f"diagnose {model} {log}",
+        f"compare {model} {log}",
+        f"diagnose {model} {log}",
         f"add {model} stribeck --joint 1 {log} --out {tmp_path}/m2.json",
-    ):  # fmt: skip
+    ):
         said = printed(capsys, command)
         assert sum(line.startswith("the fit of this model is not valid: ") for line in said) == 1
 
@@ -235,7 +236,7 @@ def fit_and_errors(name, seed, hide=None, rate=500.0):
 BIASED = [
     ("emps", 1, "stribeck"),
     *rotating(("demo-arm", 1, "load_friction"), ("demo-arm", 1, "position_friction")),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("name", "seed", "effect"), BIASED)
@@ -286,13 +287,11 @@ def with_findings(log, machine=None):
     return observed_fit(log, machine, find_log_faults(machine, observe(machine, [log])))[1]
 
 
-@pytest.mark.parametrize(
-    ("factor", "words", "name"),
-    [
-        (-1.0, "zero off by 180 degrees", "demo-arm"),
-        *rotating((0.0, "the torques carry no gravity", "demo-arm")),
-        *rotating(*((k, f"the torques carry {k:g} times the grav", "puma560") for k in (0.1, 2.0))),
-    ],
+@with_cases(
+    "factor, words, name",
+    (-1.0, "zero off by 180 degrees", "demo-arm"),
+    *rotating((0.0, "the torques carry no gravity", "demo-arm")),
+    *rotating(*((k, f"the torques carry {k:g} times the grav", "puma560") for k in (0.1, 2.0))),
 )
 def test_a_factor_of_gravity_is_named_and_no_clock(factor, words, name):
     verdict = with_findings(log_under(factor * DOWN, name), compiled(name)).verdict
@@ -322,20 +321,25 @@ def test_a_small_tilt_of_the_base_is_left_to_diagnosis():
 VAGUE = {"delta", "orthoglide-2003", "orthoglide-2012"}
 """Robots whose legs move so alike that sums of their parameters are known, not the values."""
 
-ALIKE = {
-    "evra", "lwr", "odrive", "orthoglide-2003-similar-legs", "orthoglide-leg-tree", "panda", "rx90",
-    "sr400-tree", "tx40",
-}  # fmt: skip
+ALIKE = set(
+    """
+    evra lwr odrive orthoglide-2003-similar-legs orthoglide-leg-tree panda rx90 sr400-tree tx40
+""".split()
+)
 """Robots for which others of their kind stand."""
 
 QUICK = ["emps", "five-bar", *rotating("wrist-coupled")]
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "name",
-    [*QUICK, *(pytest.param(n, marks=ROTATING)
-               for n in ROBOTS if n not in {*ALIKE, "emps", "five-bar", "wrist-coupled"})],
-)  # fmt: skip
+    *QUICK,
+    *(
+        pytest.param(n, marks=ROTATING)
+        for n in ROBOTS
+        if n not in {*ALIKE, "emps", "five-bar", "wrist-coupled"}
+    ),
+)
 def test_a_good_log_of_a_built_in_robot_is_usable(name):
     settings = SimulationSettings(duration=20.0, rate=200.0, seed=72)
     log = log_of(settings, module(name).model.robot)

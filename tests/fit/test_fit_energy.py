@@ -92,8 +92,10 @@ def test_the_result_says_how_it_compares_with_the_torque_model(arm, fitted):
     report = fit.result.energy
     torque, energy, coarse = report.figures
     assert [item.model for item in report.figures] == [
-        "torque", "energy, Simpson", "energy, trapezoid",
-    ]  # fmt: skip
+        "torque",
+        "energy, Simpson",
+        "energy, trapezoid",
+    ]
     assert torque.condition_scaled < energy.condition_scaled
     assert torque.torque_sigma < energy.torque_sigma and torque.rows > energy.rows
     (first, *_) = report.sentences

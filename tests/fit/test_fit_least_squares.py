@@ -65,9 +65,10 @@ def test_exact_data_joints_without_rows_and_without_torque_are_no_trouble(method
     W, clean, joint, _ = problem()
     silent = (joint == 0)[:, None]
     for data in (
-        compress_rows(W, clean, joint, 2, NAMES), compress_rows(W, clean, joint * 2, 4, NAMES),
+        compress_rows(W, clean, joint, 2, NAMES),
+        compress_rows(W, clean, joint * 2, 4, NAMES),
         compress_rows(W * silent, clean * silent[:, 0], joint, 2, NAMES),
-    ):  # fmt: skip
+    ):
         found = solve_least_squares(data, method)
         np.testing.assert_allclose(found.beta, (1.0, -20.0, 0.3, 5.0), rtol=1e-9)
         assert np.isfinite(found.covariance).all() and found.is_converged
@@ -134,8 +135,9 @@ def fitted_friction(effects):
     beta = np.linspace(0.5, 1.5, len(compiled.spec.base))
     tau = compiled.base_regressor(q, qd, qdd) @ beta
     tau += 0.1 * np.random.default_rng(2).normal(size=tau.shape)
-    seen = observe(compiled, [Log("run", ("1", "2"), t, q, tau, qd, qdd)],
-                   Processing(parallel_cutoff=0.0))  # fmt: skip
+    seen = observe(
+        compiled, [Log("run", ("1", "2"), t, q, tau, qd, qdd)], Processing(parallel_cutoff=0.0)
+    )
     return compiled, seen, judge_fit(compiled, seen, identify(seen, "ordinary"))
 
 

@@ -21,7 +21,7 @@ from modeler.regression.log import Log
 from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
 from modeler.validation import compare, predict
 from tests.modules import compiled, module, plain
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 MASS = 2.0
 
@@ -80,9 +80,10 @@ def moved(compiled, row, c, q):
 
 
 CASES = [
-    ("five-bar", "22", (0, -9.81, 0), 0.05), ("puma560", "6", (0, 0, -9.81), 0.8),
+    ("five-bar", "22", (0, -9.81, 0), 0.05),
+    ("puma560", "6", (0, 0, -9.81), 0.8),
     *rotating(("orthoglide-2012", "6", (0, 9.81, 0), 0.01)),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("name", "link", "g", "reach"), CASES)
@@ -97,10 +98,13 @@ def test_the_load_takes_the_force_of_a_point_mass(name, link, g, reach):
     row, h = [joint.name for joint in module(name).model.robot.moving_joints].index(link), 1e-4
     place = [moved(compiled, row, c, q + t * qd + 0.5 * t * t * qdd) for t in (-h, 0.0, h)]
     a = (place[0] - 2 * place[1] + place[2]) / h**2
-    J = np.stack([
-        (moved(compiled, row, c, q + h * e) - moved(compiled, row, c, q - h * e)) / (2 * h)
-        for e in np.eye(joints)
-    ], axis=2)  # fmt: skip
+    J = np.stack(
+        [
+            (moved(compiled, row, c, q + h * e) - moved(compiled, row, c, q - h * e)) / (2 * h)
+            for e in np.eye(joints)
+        ],
+        axis=2,
+    )
     expected = np.einsum("nxj,nx->nj", J, mass * (a - np.array(g)))
     loaded = add_known_load(model, mass, c)  # the link that carries is found
     change = np.array([p.value for p in loaded.fit.parameters])
@@ -109,13 +113,11 @@ def test_the_load_takes_the_force_of_a_point_mass(name, link, g, reach):
     np.testing.assert_allclose(found, expected, atol=2e-5 * np.abs(expected).max())
 
 
-@pytest.mark.parametrize(
-    ("mass", "centre", "link", "told"),
-    [
-        (0.0, (0, 0, 0), None, "got 0 kg at 0, 0, 0; expected a mass above 0"),
-        *((1.0, centre, None, "x, y, z of its centre") for centre in ((0, 0, np.inf), (0, 0))),
-        (1.0, (0, 0, 0), "9", "no link 9; puma560 has 1, 2, 3, 4, 5, 6"),
-    ],
+@with_cases(
+    "mass, centre, link, told",
+    (0.0, (0, 0, 0), None, "got 0 kg at 0, 0, 0; expected a mass above 0"),
+    *((1.0, centre, None, "x, y, z of its centre") for centre in ((0, 0, np.inf), (0, 0))),
+    (1.0, (0, 0, 0), "9", "no link 9; puma560 has 1, 2, 3, 4, 5, 6"),
 )
 def test_what_can_be_no_load_is_refused(mass, centre, link, told):
     with pytest.raises(DataError, match=told):

@@ -25,7 +25,7 @@ from modeler.regression.read import MemorySource, cut_rows
 from modeler.regression.survey import KnownFacts, WholeLogNeeded, choose_from_windows
 from modeler.runtime.model import CompiledModel
 from tests.modules import compiled
-from tests.rotation import rotating, slow_rotating
+from tests.rotation import rotating, slow_rotating, with_cases
 
 ROWS = 1024  # of a chunk
 
@@ -383,8 +383,9 @@ def passed_log(model: CompiledModel, memory: float, size: float = 1.0, seed: int
     w = 2 * np.pi * rng.uniform(0.2, 2.0, (n, 4))
     angle = time[:, None, None] * w + rng.uniform(0, 6.28, (n, 4))
     a = size * rng.uniform(0.1, 0.4, (n, 4))
-    q, qd, qdd = (x.sum(2) for x in (np.sin(angle) * a, np.cos(angle) * a * w,
-                                     -np.sin(angle) * a * w * w))  # fmt: skip
+    q, qd, qdd = (
+        x.sum(2) for x in (np.sin(angle) * a, np.cos(angle) * a * w, -np.sin(angle) * a * w * w)
+    )
     if model.spec.closure is not None:
         q = q + [model.spec.closure.home[i] for i in model.spec.closure.actuated]
     tau = model.inverse_dynamics(q, qd, qdd, rng.uniform(0.5, 2.0, len(model.spec.base)))
@@ -419,18 +420,16 @@ SMOOTH = Processing(position_cutoff=0.0, parallel_cutoff=20.0, derivatives="log"
 
 
 @pytest.mark.digits
-@pytest.mark.parametrize(
-    ("name", "processing", "memory", "method"),
-    [
-        ("wrist", PLAIN, 0.2, "weighted"),  # autocorrelated residuals
-        ("wrist", PLAIN, 0.0, "robust"),  # reads rows, and has them
-        ("five-bar", PLAIN, 0.0, "weighted"),
-        *rotating(
-            ("wrist", SMOOTH, 0.1, "ordinary"),
-            ("wrist", THIRD, 0.0, "weighted"),
-            ("wrist", PLAIN, 0.0, "ordinary"),
-        ),
-    ],
+@with_cases(
+    "name, processing, memory, method",
+    ("wrist", PLAIN, 0.2, "weighted"),  # autocorrelated residuals
+    ("wrist", PLAIN, 0.0, "robust"),  # reads rows, and has them
+    ("five-bar", PLAIN, 0.0, "weighted"),
+    *rotating(
+        ("wrist", SMOOTH, 0.1, "ordinary"),
+        ("wrist", THIRD, 0.0, "weighted"),
+        ("wrist", PLAIN, 0.0, "ordinary"),
+    ),
 )
 def test_a_fit_without_w_is_the_fit_with_it(monkeypatch, name, processing, memory, method):
     model = compiled(name)

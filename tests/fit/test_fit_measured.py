@@ -15,7 +15,8 @@ from modeler.regression.motion import Processing
 from modeler.robot.read import parse_robot_text
 from tests.chain import chain_of
 from tests.measured_sets.sets import DATA, SETS
-from tests.rotation import ROTATING, slow_rotating
+from tests.rotation import ROTATING, slow_rotating, with_cases
+from tests.texts import read_pairs
 
 pytestmark = [
     pytest.mark.measured,
@@ -43,9 +44,11 @@ PUBLISHED = {
     "ur10e": Published((10.4, 3.3, 3.4, 7.2, 11.3, 18.3)),
     "kinova_gen3": Published((28.8, 16.0, 15.0, 9.2, 12.5, 15.7, 6.9)),
     # Near the README's filter of 5.4 Hz. Automatic: 5.1 15.0 13.2 14.7 19.5 19.3 21.2 %.
-    "dvrk_psm": Published((4.9, 14.8, 13.8, 15.9, 22.1, 21.6, 23.5),
-                          processing=Processing(position_cutoff=8.0, parallel_cutoff=5.4)),
-}  # fmt: skip
+    "dvrk_psm": Published(
+        (4.9, 14.8, 13.8, 15.9, 22.1, 21.6, 23.5),
+        processing=Processing(position_cutoff=8.0, parallel_cutoff=5.4),
+    ),
+}
 
 QUICK = ("emps", "odrive_cogging", "tx40")
 
@@ -85,14 +88,11 @@ def test_held_out_errors_are_below_the_published_ones(robot):
 
 
 @slow_rotating("fits of measured logs")
-@pytest.mark.parametrize(
-    ("robot", "log", "words"),
-    [
-        # the built-in robot has no friction
-        ("panda", "panda/excitation.parquet", "joint 7: "),
-        # of one joint
-        ("ur10e", "ur10e/ur-20_01_22-joint_5.parquet", "not enough data for 58 parameters"),
-    ],
+@with_cases(
+    "robot, log, words",  # the built-in robot has no friction
+    ("panda", "panda/excitation.parquet", "joint 7: "),
+    # of one joint
+    ("ur10e", "ur10e/ur-20_01_22-joint_5.parquet", "not enough data for 58 parameters"),
 )
 def test_other_measured_logs_make_no_model(robot, log, words):
     line = chain_of(robot).fit([str(DATA / log)]).fit.verdict.line
@@ -128,10 +128,9 @@ def test_tx40_published_values():
     """Janot, Vandanjon, Gautier 2014, of the same robot and log: the columns that are excited."""
     parameters = results("tx40")[0].fit.parameters
     found = {parameter.name: parameter.value for parameter in parameters}
-    published = {
-        "Fv1": 8.05, "Fv2": 5.53, "Fv3": 1.97, "Fv4": 1.11, "Fs1": 7.14, "Fs2": 8.26, "Fs3": 6.34,
-        "Fs4": 2.48, "Ia3": 0.0988, "Ia4": 0.0313, "ZZ1R": 1.248, "ZZ2R": 1.080, "MX2R": 2.241,
-        "Iam6": 0.00964, "Fvm6": 0.616, "Fsm6": 1.95,
-    }  # fmt: skip
+    published = read_pairs("""
+        Fv1 8.05 Fv2 5.53 Fv3 1.97 Fv4 1.11 Fs1 7.14 Fs2 8.26 Fs3 6.34 Fs4 2.48 Ia3 0.0988
+        Ia4 0.0313 ZZ1R 1.248 ZZ2R 1.080 MX2R 2.241 Iam6 0.00964 Fvm6 0.616 Fsm6 1.95
+    """)
     for name, value in published.items():
         assert found[name] == pytest.approx(value, rel=0.1), name

@@ -46,8 +46,9 @@ def fitted(arm):
 @pytest.fixture(scope="module")
 def model(arm, fitted):
     _, seen, fit = fitted
-    return IdentifiedModel("name = 'arm'\n", arm.spec, {"arm.c": "/* C */\n"}, fit,
-                           collect_provenance(seen.report))  # fmt: skip
+    return IdentifiedModel(
+        "name = 'arm'\n", arm.spec, {"arm.c": "/* C */\n"}, fit, collect_provenance(seen.report)
+    )
 
 
 def test_a_simulated_arm_comes_back_within_its_sigmas(fitted):
@@ -177,8 +178,10 @@ DAMAGE = {
     "other sigma": ([(SIGMA, 0.123)], "the sigma of .* is 0.123, the root of its variance"),
     "minus sigma": ([(SIGMA, -1.0)], "is -1; expected 0 or more"),
     "uneven": ([(("covariance", 0, 1), enlarged)], "is not symmetric"),
-    "indefinite": ([(("covariance", *at), enlarged) for at in ((0, 1), (1, 0))],
-                   "a sum of parameters a negative variance"),
+    "indefinite": (
+        [(("covariance", *at), enlarged) for at in ((0, 1), (1, 0))],
+        "a sum of parameters a negative variance",
+    ),
     "still": ([(("covariance", 1, 1), 0.0), (SIGMA, 0.0)], "varies with others, but its variance"),
     "logs": ([(("logs",), [{"path": "x"}])], "logs.0..name is missing"),
     "log content": ([(("logs", 0, "checksum"), 3)], "expected text"),
@@ -190,7 +193,7 @@ DAMAGE = {
     "text": ([(VALUE, "x")], "value is 'x', expected a number"),
     "short": ([(VALUE[:-1],)], "values are not those of the"),
     "mapping": ([(("mapping",), ["q1=a"])], "expected an object"),
-}  # fmt: skip
+}
 
 
 def saved(folder, model):

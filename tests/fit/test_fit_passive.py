@@ -30,8 +30,9 @@ def test_a_simulated_robot_with_passive_joints_comes_back(name, tmp_path):
     # Sensor errors in W and y: the share of values beyond 2 sigma is small, none is far off.
     errors = np.abs(fit.beta - beta) / sigma
     assert np.mean(errors > 2.0) < 0.2 and errors.max() < 5.0
-    passive = [j for j, spec in zip(fit.joints, emitted.spec.joints, strict=True)
-               if not spec.actuated]  # fmt: skip
+    passive = [
+        j for j, spec in zip(fit.joints, emitted.spec.joints, strict=True) if not spec.actuated
+    ]
     assert passive and all(j.relative_error is None and 0 < j.rms < j.sigma for j in passive)
 
 

@@ -8,7 +8,7 @@ import pytest
 from modeler.cli import main
 from modeler.core.choices import ABOUT
 from tests.modules import compiled
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, with_cases
 
 ROBOT, JOINTS, MASS = "demo-arm", 3, 2.0
 
@@ -49,14 +49,22 @@ def folder(tmp_path_factory):
 
 LONG = ("didim-robust", "iv-direct-consistent", "didim-consistent")
 COMMANDS = [
-    f"log R --robot {ROBOT}", "diagnose m.json full.csv --holdout R", "add m.json spring R --out Y",
-    f"fit {ROBOT} R --out own.json", "physical own.json", "compare own.json full.csv",
-    "generate own.json --out own_c --force", "compare m.json R", "diagnose m.json R",
-]  # fmt: skip
+    f"log R --robot {ROBOT}",
+    "diagnose m.json full.csv --holdout R",
+    "add m.json spring R --out Y",
+    f"fit {ROBOT} R --out own.json",
+    "physical own.json",
+    "compare own.json full.csv",
+    "generate own.json --out own_c --force",
+    "compare m.json R",
+    "diagnose m.json R",
+]
 OTHERS = [
-    f"fit {ROBOT} R --model energy --out X", f"fleet {ROBOT} R full.csv",
-    f"fit {ROBOT} R --holdout other.csv --method weighted,ridge", "compare m.json R --free-run",
-]  # fmt: skip
+    f"fit {ROBOT} R --model energy --out X",
+    f"fleet {ROBOT} R full.csv",
+    f"fit {ROBOT} R --holdout other.csv --method weighted,ridge",
+    "compare m.json R --free-run",
+]
 FITS, LONG_FITS = (
     [f"fit {ROBOT} R --method {m} --out X" for m in ABOUT if (m in LONG) == long]
     for long in (False, True)
@@ -64,11 +72,12 @@ FITS, LONG_FITS = (
 LOADED = [
     f"fit {ROBOT} {logs} --payload-mass {MASS} --method {method} --out X"
     for logs, method in (
-        ("R --payload-log RL", "weighted"), ("R --payload-log loaded.csv", "weighted"),
+        ("R --payload-log RL", "weighted"),
+        ("R --payload-log loaded.csv", "weighted"),
         ("full.csv --payload-log RL", "robust"),
         ("bare_i.csv --payload-log RLI", "tls"),
     )
-]  # fmt: skip
+]
 BOTH = [
     f"fit {ROBOT} RI --payload-log {log} --payload-mass {MASS} --method tls --out X"
     for log in ("loaded_i.csv", "RLI")
@@ -77,18 +86,24 @@ ONE, ALL = (1,), (0, 1, 2)
 
 
 @pytest.mark.rotating("long tests of fit")
-@pytest.mark.parametrize(
-    ("rest", "commands"),
-    [*((rest, own) for rest in (ONE, ALL)
-       for own in (COMMANDS, OTHERS, FITS[::2], FITS[1::2], LOADED)),
-     *(pytest.param(rest, own, marks=ROTATING)
-       for rest in (ONE, ALL) for own in (LONG_FITS, BOTH))],
-)  # fmt: skip
+@with_cases(
+    "rest, commands",
+    *(
+        (rest, own)
+        for rest in (ONE, ALL)
+        for own in (COMMANDS, OTHERS, FITS[::2], FITS[1::2], LOADED)
+    ),
+    *(pytest.param(rest, own, marks=ROTATING) for rest in (ONE, ALL) for own in (LONG_FITS, BOTH)),
+)
 def test_a_result_or_one_clear_line(folder, rest, commands, capsys, monkeypatch):
     """`main` raises whatever is no ModelerError: a traceback fails."""
     monkeypatch.chdir(folder)
-    for name, *more in (("R.csv", 1), ("RL.csv", 3, MASS), ("RI.csv", 1, 0.0, "current"),
-                        ("RLI.csv", 3, MASS, "current")):  # fmt: skip
+    for name, *more in (
+        ("R.csv", 1),
+        ("RL.csv", 3, MASS),
+        ("RI.csv", 1, 0.0, "current"),
+        ("RLI.csv", 3, MASS, "current"),
+    ):
         written(name, rest, *more)
     (folder / "own.json").unlink(missing_ok=True)
     for words in commands:

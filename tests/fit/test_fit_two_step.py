@@ -23,9 +23,14 @@ from tests.modules import compiled, module
 from tests.rotation import rotating
 
 _AS_THEY_ARE = Processing(
-    position_cutoff=0.0, parallel_cutoff=0.0, decimation=1, derivatives="log", edge=0.0,
-    keep_contradicted=True, keep_damaged=True,
-)  # fmt: skip
+    position_cutoff=0.0,
+    parallel_cutoff=0.0,
+    decimation=1,
+    derivatives="log",
+    edge=0.0,
+    keep_contradicted=True,
+    keep_damaged=True,
+)
 _LIMITS = (Limits(-1.4, 1.4, 4.0, 25.0),) * 3
 _SEEDS = 10
 _ROBOT = "wrist-coupled"
@@ -140,9 +145,9 @@ def test_the_inertias_have_the_rank_of_the_papers_functions(exact):
     assert [e.max_rank for e in exact.excitation] == [7, 3, 1]
     q = np.random.default_rng(4).uniform(-np.pi, np.pi, (8, 3))
     s2, c2, s3, c3 = np.sin(q[:, 1]), np.cos(q[:, 1]), np.sin(q[:, 2]), np.cos(q[:, 2])
-    paper = np.column_stack([
-        s3**2 * s2**2, s3 * c3 * s2**2, s2**2, s2 * c2 * s3, c2 * s2 * c3, c2 * s2, np.ones(8),
-    ])  # fmt: skip
+    paper = np.column_stack(
+        [s3**2 * s2**2, s3 * c3 * s2**2, s2**2, s2 * c2 * s3, c2 * s2 * c3, c2 * s2, np.ones(8)]
+    )
     model, ways = compiled("wrist"), _directions("wrist")
     for count in range(1, 9):
         rows = build_inertia_rows(model, q[:count], ways.rows[0])
@@ -182,8 +187,13 @@ def test_logs_without_such_a_piece_are_refused(tmp_path, capsys):
     assert "use --method weighted" in str(error.value) and "\n" not in str(error.value)
     path = tmp_path / "joints.csv"  # of joints, not of motors
     names = ["time", *(f"q{j}" for j in log.joints), *(f"tau{j}" for j in log.joints)]
-    np.savetxt(path, np.column_stack([log.time, log.q, log.tau]), delimiter=",",
-               header=",".join(names), comments="")  # fmt: skip
+    np.savetxt(
+        path,
+        np.column_stack([log.time, log.q, log.tau]),
+        delimiter=",",
+        header=",".join(names),
+        comments="",
+    )
     out = str(tmp_path / "x.json")
     assert main(["fit", "wrist-coupled", str(path), "--method", "two-step", "--out", out]) == 1
     assert "no column qm1" in capsys.readouterr().err

@@ -115,8 +115,12 @@ def logs(scene: Scene, seed: int, robot: str = "two-link") -> list[tuple[LogName
                     beta = beta + plant.by_period[p] * _load(model)
                 elif plant.machine == m:
                     beta[names.index(plant.name)] *= 1.0 + plant.by_period[p]
-            found.append((LogName(f"r{m + 1}", f"day{p + 1}", f"r{m + 1}/day{p + 1}.csv"),
-                          _log(model, beta, gains, scene, rng, p)))  # fmt: skip
+            found.append(
+                (
+                    LogName(f"r{m + 1}", f"day{p + 1}", f"r{m + 1}/day{p + 1}.csv"),
+                    _log(model, beta, gains, scene, rng, p),
+                )
+            )
     return found
 
 
@@ -127,14 +131,7 @@ def _load(model: CompiledModel) -> np.ndarray:
     return model.base_parameters([values.get(p.name, 0.0) for p in model.spec.standard])
 
 
-def _log(
-    model: CompiledModel,
-    beta: np.ndarray,
-    gains: np.ndarray,
-    scene: Scene,
-    rng: np.random.Generator,
-    period: int,
-) -> Log:
+def _log(model, beta, gains, scene, rng, period):
     t, q, qd, qdd = motion(rng, len(gains), scene.duration)
     exact = model.base_regressor(q, qd, qdd) @ beta
     rms = np.sqrt(np.mean(exact**2, axis=0))

@@ -11,6 +11,7 @@ from modeler.api import fleet, load, simulate, write_report
 from modeler.cli import main
 from modeler.robot.edit import replace_parameters
 from modeler.robot.read import parse_robot_text
+from tests.rotation import with_cases
 
 MOTION = {"duration": 4.0, "rate": 200.0, "parameter_seed": 4}
 
@@ -64,20 +65,18 @@ def test_processes_and_lists_give_the_same(capsys, plant: Path, tmp_path: Path) 
     assert run(capsys, "--list", str(table)) == whole
 
 
-@pytest.mark.parametrize(
-    ("words", "told"),
-    [
-        ("", "fleet: got no logs; name files or folders of logs, or --list FILE"),
-        ("@/r1/2026-03-01.parquet --workers 0", "--workers: got 0; expected 1 or more"),
-        ("@/r1/2026-03-01.parquet", "fleet: got one log each of r1; expected two periods of a mac"),
-        ("@/r1/2026-03-01.parquet @/r1/2026-03-01.parquet", "is too; expected one log each; renam"),
-        ("@ --name no{period}", "does not fit --name no{period}; expected a path that ends so"),
-        ("nowhere", "modeler: nowhere: no such file or folder; expected logs, or folders of logs"),
-        ("@ --list @/logs.csv", "LOG: got it with --list; leave one of them out"),
-        ("@/empty", "/empty: a folder without logs; expected .csv, .parquet, "),
-        ("@ --cutoff -1", "position_cutoff is -1.0; expected a number that is not negative"),
-        ("@ --effects none", "--effects: got none; expected some of"),
-    ],
+@with_cases(
+    "words, told",
+    ("", "fleet: got no logs; name files or folders of logs, or --list FILE"),
+    ("@/r1/2026-03-01.parquet --workers 0", "--workers: got 0; expected 1 or more"),
+    ("@/r1/2026-03-01.parquet", "fleet: got one log each of r1; expected two periods of a mac"),
+    ("@/r1/2026-03-01.parquet @/r1/2026-03-01.parquet", "is too; expected one log each; renam"),
+    ("@ --name no{period}", "does not fit --name no{period}; expected a path that ends so"),
+    ("nowhere", "modeler: nowhere: no such file or folder; expected logs, or folders of logs"),
+    ("@ --list @/logs.csv", "LOG: got it with --list; leave one of them out"),
+    ("@/empty", "/empty: a folder without logs; expected .csv, .parquet, "),
+    ("@ --cutoff -1", "position_cutoff is -1.0; expected a number that is not negative"),
+    ("@ --effects none", "--effects: got none; expected some of"),
 )
 def test_bad_input_is_one_line(capsys, two_days: Path, words: str, told: str) -> None:
     (two_days / "empty").mkdir(exist_ok=True)
@@ -105,18 +104,25 @@ def test_the_command_and_python_say_the_same(capsys, plant: Path, tmp_path: Path
     assert told["verdict"] == "drift" and told["time"] == "days" and told["logs"] == 10
     [one] = told["findings"]
     assert (one["machine"], one["joint"], one["effect"], one["shape"], one["from"]) == (
-        "r2", "2", "coulomb", "jump", "2026-03-03",
-    )  # fmt: skip
+        "r2",
+        "2",
+        "coulomb",
+        "jump",
+        "2026-03-03",
+    )
     assert one["change_percent"] == pytest.approx(50.0, abs=8.0) and one["temperature"] is None
     followed = {each["parameter"]: each for each in told["quantities"]}
     assert set(followed) == {"Fv1", "Fs1", "Fv2", "Fs2", "gain 1", "gain 2", "load"}
     own = followed["Fs2"]["machines"]["r2"]
     assert own["times"] == [0.0, 1.0, 2.0, 3.0, 4.0] and len(own["values"]) == 5
 
-    found = fleet(load("two-link"), {
-        machine: {path.stem: path for path in sorted((plant / machine).glob("*.parquet"))}
-        for machine in ("r1", "r2")
-    })  # fmt: skip
+    found = fleet(
+        load("two-link"),
+        {
+            machine: {path.stem: path for path in sorted((plant / machine).glob("*.parquet"))}
+            for machine in ("r1", "r2")
+        },
+    )
     assert found.findings[0].change == pytest.approx(one["change"])
     assert len(found.table("findings").rows) == 1 and len(found.table("values").rows) == 70
     assert found.plot("quantity 4") is not None and "Fs2" in found.summary()

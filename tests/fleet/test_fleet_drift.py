@@ -9,7 +9,7 @@ from modeler.core.errors import DataError
 from modeler.validation.fleet import Fleet, analyse_fleet, describe_finding, format_fleet
 from modeler.validation.fleet_logs import LogName, SkippedLog
 from tests.fleet.machines import Planted, Scene, compiled, summaries
-from tests.rotation import rotating, slow_rotating
+from tests.rotation import rotating, slow_rotating, with_cases
 
 
 def fleet(scene: Scene, seed: int, robot: str = "two-link") -> Fleet:
@@ -21,12 +21,10 @@ def told(found: Fleet) -> list[tuple[str, str, str]]:
 
 
 @slow_rotating("fleets that drift")
-@pytest.mark.parametrize(
-    ("scene", "seeds", "most"),
-    [
-        (Scene(machines=2, periods=3, noise=0.05), range(300, 316), 3),
-        (Scene(machines=1, periods=8, daily=0.03, apart=0.2), range(600, 620), 4),
-    ],
+@with_cases(
+    "scene, seeds, most",
+    (Scene(machines=2, periods=3, noise=0.05), range(300, 316), 3),
+    (Scene(machines=1, periods=8, daily=0.03, apart=0.2), range(600, 620), 4),
 )
 def test_fleets_without_drift_are_quiet(scene: Scene, seeds: range, most: int) -> None:
     """5 % of them may show anything at all: 4 and more of 16: 1 %; 5 and more of 20: 0.3 %."""
@@ -83,8 +81,10 @@ def test_a_load_is_no_gain(robot: str) -> None:
 @slow_rotating("fleets that drift")
 def test_a_gain_is_no_load_and_both_may_be_in_one_fleet() -> None:
     """Six joints: the load of r3 makes the scatter known, and r5's gain pretends to 0.04 kg."""
-    plans = (Planted(4, "gain2", (0.0,) * 3 + (0.05,) * 3),
-             Planted(2, "load", (0.0,) * 2 + (2.0,) * 4))  # fmt: skip
+    plans = (
+        Planted(4, "gain2", (0.0,) * 3 + (0.05,) * 3),
+        Planted(2, "load", (0.0,) * 2 + (2.0,) * 4),
+    )
     scene = Scene(machines=5, periods=6, daily=0.02, duration=15.0, planted=plans)
     found = fleet(scene, 5, "ur10e")
     assert set(told(found)) == {("r3", "load", "jump"), ("r5", "gain 2", "jump")}

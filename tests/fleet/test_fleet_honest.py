@@ -13,14 +13,12 @@ from modeler.runtime.model import CompiledModel
 from modeler.validation.fleet import Fleet, analyse_fleet, format_fleet
 from modeler.validation.fleet_logs import LogName, LogSummary, SkippedLog, summarise_log
 from tests.fleet.machines import Planted, Scene, compiled, logs, motion, parameters
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 GIVEN = Processing(position_cutoff=20.0, parallel_cutoff=8.0)
 
 
-def reduced(
-    pairs: list[tuple[LogName, Log]], robot: str = "two-link"
-) -> list[LogSummary | SkippedLog]:
+def reduced(pairs, robot="two-link"):
     found: list[LogSummary | SkippedLog] = []
     for named, log in pairs:
         try:
@@ -50,8 +48,8 @@ def test_logs_with_exchanged_torques_are_left_out_with_the_reason(robot: str) ->
     found = judged(wrong, robot)
     assert found.findings == ()
     assert [place for place, _ in found.skipped_logs] == [
-        "r1/day3.csv", "r2/day1.csv", "r2/day2.csv", "r2/day3.csv"
-    ]  # fmt: skip
+        *"r1/day3.csv r2/day1.csv r2/day2.csv r2/day3.csv".split()
+    ]
     text = "\n".join(format_fleet(found))
     assert "on 2 machines in 5 logs; 4 logs left out" in text
     told = f"left out: r2/day1.csv: does not fit {robot}: joints 1 and 2: their torques look exch"
@@ -65,11 +63,11 @@ def test_short_logs_are_still_compared() -> None:
     assert found.skipped_logs == () and found.logs == 6
 
 
-@pytest.mark.parametrize(
-    ("seed", "plan"),
-    [(71, ("gain1", -0.5)),
-     *rotating((74, ("load", 5.0)), (72, ("Fv1", -0.9)), (73, ("Fs2", 4.0)))],
-)  # fmt: skip
+@with_cases(
+    "seed, plan",
+    (71, ("gain1", -0.5)),
+    *rotating((74, ("load", 5.0)), (72, ("Fv1", -0.9)), (73, ("Fs2", 4.0))),
+)
 def test_great_drifts_are_no_wrong_logs(seed: int, plan: tuple[str, float]) -> None:
     name, size = plan
     scene = Scene(machines=2, periods=4, planted=(Planted(0, name, (0.0, 0.0, size, size)),))

@@ -11,6 +11,7 @@ from modeler.core.errors import DataError
 from modeler.validation.fleet_drift import arrange_by_time, parse_date
 from modeler.validation.fleet_logs import make_natural_key, name_logs, read_log_list
 from tests.fleet.machines import Scene, summaries
+from tests.rotation import with_cases
 
 
 def named(*places: str, name: str | None = None) -> list[tuple[str, str]]:
@@ -42,15 +43,13 @@ def test_patterns() -> None:
         assert named(place, name=pattern) == [(machine, period)]
 
 
-@pytest.mark.parametrize(
-    ("pattern", "told"),
-    [
-        ("{robot}.csv", "--name {robot}.csv: got {robot}, which says nothing; expected {machine}"),
-        ("{machine}{machine}", "got {machine}, twice; expected {machine} and {period}, each once"),
-        ("{machine}.csv", "--name {machine}.csv: no {period} stands in it; expected one, as in"),
-        ("run.csv", "--name run.csv: neither {machine} nor {period} stands in it; expected"),
-        ("{machine}_{period}.csv", "r1/a.csv: does not fit --name {machine}_{period}.csv"),
-    ],
+@with_cases(
+    "pattern, told",
+    ("{robot}.csv", "--name {robot}.csv: got {robot}, which says nothing; expected {machine}"),
+    ("{machine}{machine}", "got {machine}, twice; expected {machine} and {period}, each once"),
+    ("{machine}.csv", "--name {machine}.csv: no {period} stands in it; expected one, as in"),
+    ("run.csv", "--name run.csv: neither {machine} nor {period} stands in it; expected"),
+    ("{machine}_{period}.csv", "r1/a.csv: does not fit --name {machine}_{period}.csv"),
 )
 def test_bad_patterns(pattern: str, told: str) -> None:
     with pytest.raises(DataError, match=re.escape(told)):
@@ -64,8 +63,10 @@ def test_two_logs_of_one_machine_and_period() -> None:
 
 
 def test_lists(tmp_path: Path) -> None:
-    tables = [f'[[log]]\nmachine = "r1"\nperiod = "{p}"\nlog = "{log}"\n'
-              for p, log in (("b", "x/1.csv"), ("a", "2.csv"))]  # fmt: skip
+    tables = [
+        f'[[log]]\nmachine = "r1"\nperiod = "{p}"\nlog = "{log}"\n'
+        for p, log in (("b", "x/1.csv"), ("a", "2.csv"))
+    ]
     rows = "machine, period, log\nr1, b, x/1.csv\nr1, a, 2.csv\n"
     for name, text in (("logs.csv", rows), ("logs.toml", "".join(tables))):
         (tmp_path / name).write_text(text)
@@ -74,19 +75,17 @@ def test_lists(tmp_path: Path) -> None:
         assert [log.place for log in found] == [str(tmp_path / p) for p in ("2.csv", "x/1.csv")]
 
 
-@pytest.mark.parametrize(
-    ("name", "text", "told"),
-    [
-        ("l.csv", "machine,log\nr1,a.csv\n", "l.csv: no column period in its first line"),
-        ("l.csv", "machine,period,log\nr1,,a.csv\n", "l.csv, line 2: no period; expected machine"),
-        ("l.csv", "machine,period,log\n", "l.csv: no logs in it; expected rows of machine"),
-        ("l.csv", "machine,period,log\nr1,a,x\nr1,a,y\n", "y: machine r1, period a, which"),
-        ("l.toml", "log = 3\n", "l.toml: log is no list of tables; expected [[log]]"),
-        ("l.toml", "[[log]\n", "expected TOML with [[log]] tables"),
-        ("l.toml", '[[log]]\nmachine = "a"\n', "l.toml, log 1: no period"),
-        ("l.csv", b"\xff\xfe\x00", "l.csv: no text; expected a list of logs"),
-        ("l.csv", None, "l.csv: cannot be read (No such file or directory)"),
-    ],
+@with_cases(
+    "name, text, told",
+    ("l.csv", "machine,log\nr1,a.csv\n", "l.csv: no column period in its first line"),
+    ("l.csv", "machine,period,log\nr1,,a.csv\n", "l.csv, line 2: no period; expected machine"),
+    ("l.csv", "machine,period,log\n", "l.csv: no logs in it; expected rows of machine"),
+    ("l.csv", "machine,period,log\nr1,a,x\nr1,a,y\n", "y: machine r1, period a, which"),
+    ("l.toml", "log = 3\n", "l.toml: log is no list of tables; expected [[log]]"),
+    ("l.toml", "[[log]\n", "expected TOML with [[log]] tables"),
+    ("l.toml", '[[log]]\nmachine = "a"\n', "l.toml, log 1: no period"),
+    ("l.csv", b"\xff\xfe\x00", "l.csv: no text; expected a list of logs"),
+    ("l.csv", None, "l.csv: cannot be read (No such file or directory)"),
 )
 def test_bad_lists(tmp_path: Path, name: str, text: str | bytes | None, told: str) -> None:
     if text is not None:
@@ -101,9 +100,13 @@ def test_natural_order() -> None:
 
 def test_dates_in_names() -> None:
     for period, told in {
-        "2026-03-01": "2026-03-01 00:00", "run_20260301_0930": "2026-03-01 09:30",
-        "2026.03.01 at x": "2026-03-01 00:00", "2026-13-01": None, "day3": None, "120260301": None,
-    }.items():  # fmt: skip
+        "2026-03-01": "2026-03-01 00:00",
+        "run_20260301_0930": "2026-03-01 09:30",
+        "2026.03.01 at x": "2026-03-01 00:00",
+        "2026-13-01": None,
+        "day3": None,
+        "120260301": None,
+    }.items():
         found = parse_date(period)
         assert (None if found is None else f"{found:%Y-%m-%d %H:%M}") == told
 
@@ -113,11 +116,15 @@ def test_periods_are_in_time() -> None:
     plain = summaries(Scene(machines=1, periods=3), 2)
     logs, at, unit = arrange_by_time(plain)  # day1 ..., all clocks from 0
     assert unit == "periods" and at.tolist() == [0.0, 1.0, 2.0]
-    dated = [replace(log, log_name=replace(log.log_name, period=f"2026-03-{day:02d}"))
-             for log, day in zip(plain, (9, 2, 1), strict=True)]  # fmt: skip
+    dated = [
+        replace(log, log_name=replace(log.log_name, period=f"2026-03-{day:02d}"))
+        for log, day in zip(plain, (9, 2, 1), strict=True)
+    ]
     logs, at, unit = arrange_by_time(dated)
     assert unit == "days" and at.tolist() == [0.0, 1.0, 8.0] and [*logs] == dated[::-1]
-    clocked = [replace(log, span=(86400.0 * day, 86400.0 * day + 12.0))
-               for log, day in zip(plain, (3, 0, 1), strict=True)]  # fmt: skip
+    clocked = [
+        replace(log, span=(86400.0 * day, 86400.0 * day + 12.0))
+        for log, day in zip(plain, (3, 0, 1), strict=True)
+    ]
     logs, at, unit = arrange_by_time(clocked)
     assert unit == "days" and np.allclose(at, [0.0, 1.0, 3.0]) and logs[0] is clocked[1]

@@ -51,10 +51,13 @@ def pendulum(stands: bool) -> tuple[IdentifiedModel, Log]:
     """
     robot = parse_robot_text(PENDULUM.format(up=-G if stands else G), "pendulum")
     time = np.arange(0.0, 2.0 * np.pi, STEP)  # whole periods of both sines
-    q, qd, qdd = np.sum([
-        (a * np.sin(w * time), a * w * np.cos(w * time), -a * w**2 * np.sin(w * time))
-        for a, w in ((0.06, 2.0), (0.04, 5.0))
-    ], axis=0)  # fmt: skip
+    q, qd, qdd = np.sum(
+        [
+            (a * np.sin(w * time), a * w * np.cos(w * time), -a * w**2 * np.sin(w * time))
+            for a, w in ((0.06, 2.0), (0.04, 5.0))
+        ],
+        axis=0,
+    )
     pull = MOMENT * G * np.sin(q) * (-1.0 if stands else 1.0)
     tau = INERTIA * qdd + RUBS * qd + pull
     log = Log("swing.parquet", ("1",), time, q[:, None], tau[:, None], qd[:, None], qdd[:, None])
@@ -205,9 +208,14 @@ def test_a_swinging_pendulum_of_order_2() -> None:
     errors = []
     for inner in (2, 4, 8):
         lanes = RobotBatch(
-            np.array([[1.5]]), np.zeros((1, 1)), wave[:, None, None], None, 0.01, np.full(1, 9.0),
+            np.array([[1.5]]),
+            np.zeros((1, 1)),
+            wave[:, None, None],
+            None,
+            0.01,
+            np.full(1, 9.0),
             np.zeros((200, 1, 1)),
-        )  # fmt: skip
+        )
         errors.append(np.abs(simulate_batch(plant, lanes, inner)[:, 0, 0] - truth).max())
     assert errors[0] < 1e-3 and errors[0] > 3.0 * errors[1] > 9.0 * errors[2]
 

@@ -36,9 +36,13 @@ def parser() -> argparse.ArgumentParser:
     seeds = made.add_mutually_exclusive_group()
     seeds.add_argument("--seeds", help=f"numbers with commas; default: 1 to {SEEDS}")
     seeds.add_argument(
-        "--acceptance", nargs="?", type=int, const=SEEDS, metavar="N",
+        "--acceptance",
+        nargs="?",
+        type=int,
+        const=SEEDS,
+        metavar="N",
         help=f"the first N (default {SEEDS}) of the seeds {ACCEPTANCE[0]} to {ACCEPTANCE[-1]}",
-    )  # fmt: skip
+    )
     add("--first", type=int, default=0, metavar="SEED", help="leave out seeds below this one")
     for name, told in MORE.items():
         usual = {"nargs": "?", "const": PAIRS} if name == "two" else {}

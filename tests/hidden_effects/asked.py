@@ -4,10 +4,8 @@ import json
 import multiprocessing
 import os
 import sys
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from pathlib import Path
-from typing import Any
 
 
 def names_of(text: str | None, known: Collection[str]) -> list[str]:
@@ -18,15 +16,7 @@ def names_of(text: str | None, known: Collection[str]) -> list[str]:
     return names
 
 
-def asked_once(
-    cases: Sequence[Any],
-    ask: Callable[[Any], Any],
-    memory: Path | None,
-    read: Callable[[Mapping[str, Any]], Any],
-    jobs: int = 1,
-    tell: Callable[[Any], None] = print,
-    good: Callable[[Any], bool] = bool,
-) -> list[Any]:
+def asked_once(cases, ask, memory, read, jobs=1, tell=print, good=bool):
     """The answers to cases, in their order; those that `memory` holds are not asked again.
 
     Args:
@@ -55,9 +45,7 @@ def asked_once(
     return [known[case.name] for case in cases]
 
 
-def _answers(
-    cases: Sequence[Any], ask: Callable[[Any], Any], jobs: int
-) -> Iterator[tuple[str, Any]]:
+def _answers(cases, ask, jobs):
     if jobs == 1:
         yield from ((case.name, ask(case)) for case in cases)
         return

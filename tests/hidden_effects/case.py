@@ -178,10 +178,7 @@ class _Attempt:
         for name, run, path in zip(("loaded", "loaded_holdout"), runs, paths, strict=True):
             self._write_log(folder / f"{name}.parquet", run, path, 0.0, thermal, self.loaded)
 
-    def _write_log(
-        self, place: Path, run: Run, wanted: np.ndarray, start: float, thermal: bool,
-        plant: Plant | None = None,
-    ) -> None:  # fmt: skip
+    def _write_log(self, place, run, wanted, start, thermal, plant=None):
         noise = measured_noise(self.scales, self.case.noise)
         delay = sum(hidden.delay for hidden in self.hidden.values())
         columns = log(run, wanted, noise, self.rng, delay=delay, start=start, thermal=thermal)

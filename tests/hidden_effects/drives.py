@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tests.hidden_effects.motion import Bounds
-from tests.hidden_effects.plant import TICK, Plant, rate
+from tests.hidden_effects.plant import TICK, rate
 
 NOISE = {"low": 0.0035, "med": 0.01, "high": 0.027}
 """Rms of the process torque over that of the motors."""
@@ -41,9 +41,7 @@ class Scales:
     reach: float
 
 
-def equip(
-    plant: Plant, bounds: Bounds, path: np.ndarray, noise: str, rng: np.random.Generator
-) -> Scales:
+def equip(plant, bounds, path, noise, rng):
     """Motors, friction, controller, encoders and noise for an arm that moves along a path.
 
     Joint by joint, with r the torque that the links ask for and m their inertia: rotor inertia
@@ -83,9 +81,7 @@ def measured_noise(scales: Scales, noise: str) -> np.ndarray:
     return 1.2 * NOISE[noise] * scales.motors
 
 
-def _add_friction(
-    plant: Plant, rated: np.ndarray, inertia: np.ndarray, bounds: Bounds, rng: np.random.Generator
-) -> None:
+def _add_friction(plant, rated, inertia, bounds, rng):
     n = plant.joints
     plant.coulomb = rng.uniform(0.03, 0.08, n) * rated
     plant.viscous = rng.uniform(0.03, 0.09, n) * rated / bounds.speed
@@ -95,9 +91,7 @@ def _add_friction(
     plant.offset = rng.choice([-1, 1], n) * rng.uniform(0.006, 0.04, n) * rated
 
 
-def _add_controller(
-    plant: Plant, rated: np.ndarray, inertia: np.ndarray, bounds: Bounds, rng: np.random.Generator
-) -> None:
+def _add_controller(plant, rated, inertia, bounds, rng):
     """Speed loops of 12..20 Hz, a current lag of 0.4 ms, encoders of 2^19 steps a turn and more."""
     n = plant.joints
     band = 2 * np.pi * rng.uniform(12, 20)

@@ -1,6 +1,6 @@
 """Hiding an effect in an arm: by name, on a joint and with values that are drawn."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -102,19 +102,15 @@ def effect(name: str, known: dict[str, Hide] = EFFECTS) -> Callable[[Hide], Hide
     return add
 
 
-def hide(
-    name: str,
-    plant: Plant,
-    scales: Scales,
-    rng: np.random.Generator,
-    known: Mapping[str, Hide] = EFFECTS,
-) -> Hidden:
+def hide(name, plant, scales, rng, known=EFFECTS):
     """Change the plant; the name is one of those that are known.
 
     Raises:
         Impossible: this arm cannot have it.
     """
     hidden = known[name](Draw(plant, scales, rng))
-    values = {key: value if isinstance(value, str) else np.asarray(value, float).tolist()
-              for key, value in hidden.values.items()}  # fmt: skip
+    values = {
+        key: value if isinstance(value, str) else np.asarray(value, float).tolist()
+        for key, value in hidden.values.items()
+    }
     return Hidden(hidden.joint, values, hidden.delay)

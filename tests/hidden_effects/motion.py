@@ -59,9 +59,7 @@ def moves(rng: np.random.Generator, seconds: float, bounds: Bounds) -> np.ndarra
     return path
 
 
-def _joint_moves(
-    rng: np.random.Generator, ticks: int, angle: float, speed: float, acceleration: float
-) -> np.ndarray:
+def _joint_moves(rng, ticks, angle, speed, acceleration):
     q, place, tick = np.zeros(ticks), 0.0, int(rng.uniform(50, 400))
     levels: list[float] = []
     while True:

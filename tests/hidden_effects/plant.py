@@ -105,9 +105,7 @@ class Plant:
         ffi.memmove(other._struct, self._struct, ffi.sizeof("Plant"))
         return other
 
-    def inverse_dynamics(
-        self, q: np.ndarray, v: np.ndarray, a: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def inverse_dynamics(self, q, v, a):
         """(samples, n) each: torque of the links, diagonal of their inertia, gravity's torque."""
         ffi, loaded = library()
         given = [_pointer(ffi, np.ascontiguousarray(x, float)) for x in (q, v, a)]
@@ -123,9 +121,12 @@ class Plant:
         run = Run(*(np.zeros((count, n)) for count in (ticks, STEPS * ticks, ticks, ticks)))
         left = (run.encoder, run.torque, run.temperature, run.link)
         lost = loaded.simulate(
-            self._struct, ticks, *(_pointer(ffi, x) for x in given), seed,
+            self._struct,
+            ticks,
+            *(_pointer(ffi, x) for x in given),
+            seed,
             *(_pointer(ffi, x) for x in left),
-        )  # fmt: skip
+        )
         finite = np.isfinite(run.torque.sum() + run.encoder.sum())
         return None if lost or not finite or np.abs(run.encoder - wanted).max() > RUNAWAY else run
 

@@ -127,13 +127,13 @@ def score_from_json(data: Mapping[str, Any]) -> Score:
     return Score(**{**data, **keys})
 
 
-def scored(
-    case: str, truth: Mapping[str, Any], said: Mapping[str, Any], withheld: bool = False
-) -> Score:
+def scored(case, truth, said, withheld=False):
     """A diagnosis (`to_json`) against the truth of its case (`truth.json`)."""
     hidden, findings = truth["hidden"], said["effects"]
-    by_status = {status: [_key(f) for f in findings if f.get("status", "likely") in kinds]
-                 for status, kinds in STATUS.items()}  # fmt: skip
+    by_status = {
+        status: [_key(f) for f in findings if f.get("status", "likely") in kinds]
+        for status, kinds in STATUS.items()
+    }
     named, facts = by_status["likely"], by_status["confirmed"]
     listed = findings[0] if findings else None  # those that are only possible come last
     first = [_key(f) for f in findings[:1]]
@@ -173,9 +173,7 @@ def _not_of(true: Sequence[Mapping[str, Any]], keys: Sequence[Key]) -> list[Key]
     return [key for key in keys if not any(is_it(effect, key) for effect in true)]
 
 
-def _blamed(
-    sensor: Mapping[str, Any], findings: Sequence[Mapping[str, Any]]
-) -> list[dict[str, Any]]:
+def _blamed(sensor, findings):
     """Names that are true on account of the sensor: its joint's, or one that is tied with that."""
     names, where = SENSORS[sensor["kind"]].names, (sensor.get("joint"), None)
     found = []
@@ -186,10 +184,7 @@ def _blamed(
     return found
 
 
-def _told(
-    sensor: Mapping[str, Any], said: Mapping[str, Any], blamed: Sequence[Mapping[str, Any]],
-    named: Sequence[Key],
-) -> bool | None:  # fmt: skip
+def _told(sensor, said, blamed, named):
     """Whether a line on the data, or a name, shows what is wrong with the log."""
     words, joint = SENSORS[sensor["kind"]].words, sensor.get("joint")
     if not words:

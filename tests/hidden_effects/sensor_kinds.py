@@ -100,9 +100,7 @@ class Sensor:
         step = 2 * np.pi / self.counts if self.counts else 0.0
         return np.round(q / step) * step if step else self.blurred(q, rng)
 
-    def logged(
-        self, columns: dict[str, np.ndarray], joint: int, rng: np.random.Generator
-    ) -> dict[str, np.ndarray]:
+    def logged(self, columns, joint, rng):
         """The columns of a log as this kind of machine writes them."""
         names = [name for name in columns if name[0] == "q" and name[1:].isdigit()]
         q = self.blurred(np.stack([columns[name] for name in names], 1), rng)
@@ -135,15 +133,19 @@ SENSORS = {
     "repeat": Sensor("recorder 1.25 times as fast", faster=1.25, words=("repeat", "recorder")),
     "repeat3": Sensor("recorder 3 times as fast", faster=3.0, words=("repeat", "recorder")),
     "gain": Sensor(
-        "one torque times 0.027", gain=0.027, names=("drive_gain",),
+        "one torque times 0.027",
+        gain=0.027,
+        names=("drive_gain",),
         words=("unit", "scale", "times", "gain"),
     ),
     "millinewton": Sensor(
-        "one torque in mN m", gain=1000.0, names=("drive_gain",),
+        "one torque in mN m",
+        gain=1000.0,
+        names=("drive_gain",),
         words=("mN", "unit", "scale", "times", "gain"),
     ),
     "computed": Sensor("torques computed from the motion", computed=True, words=("computed",)),
-}  # fmt: skip
+}
 
 
 def computed_torque(plant: Plant, q: np.ndarray) -> np.ndarray:

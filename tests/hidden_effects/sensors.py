@@ -22,16 +22,7 @@ def logged_torque(run: Run, delay: float) -> np.ndarray:
     return CubicSpline(fine, run.torque)(rows)
 
 
-def log(
-    run: Run,
-    wanted: np.ndarray,
-    noise: np.ndarray,
-    rng: np.random.Generator,
-    *,
-    delay: float = 0.0,
-    start: float = 0.0,
-    thermal: bool = False,
-) -> dict[str, np.ndarray]:
+def log(run, wanted, noise, rng, *, delay=0.0, start=0.0, thermal=False):
     """Columns time, q, qc (wanted), tau and, if thermal, temperature, joint after joint.
 
     Args:

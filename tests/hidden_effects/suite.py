@@ -1,7 +1,6 @@
 """Which cases there are, and running them: made once, diagnosed once, stored in a folder."""
 
 import json
-from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -23,10 +22,7 @@ ACCEPTANCE = range(1001, 1100)
 IMPOSSIBLE = frozenset({"elasticity", "backlash"})  # one gear for both
 
 
-def cases_with(
-    effects: Sequence[str], noises: Sequence[str], seeds: Iterable[int],
-    pool: Sequence[int] = (), clean: int = 0, two: int = 0, withheld: int = 0, held_out: int = 0,
-) -> list[Case]:  # fmt: skip
+def cases_with(effects, noises, seeds, pool=(), clean=0, two=0, withheld=0, held_out=0):
     """Every effect at every noise with every seed, and the first so many of a pool at every noise.
 
     Args:
@@ -83,13 +79,16 @@ def _no_truth(case: Case) -> dict[str, Any]:
     """Of a case that could not be made: what was requested, invisible."""
     hidden: list[dict[str, Any]]
     hidden = [{"effect": name, "joint": None, "values": {}} for name in case.effects]
-    return {"hidden": hidden, "visible": [0.0], "noise": case.noise, "robot": case.kind or "any",
-            "sensor": {"kind": case.sensor}}  # fmt: skip
+    return {
+        "hidden": hidden,
+        "visible": [0.0],
+        "noise": case.noise,
+        "robot": case.kind or "any",
+        "sensor": {"kind": case.sensor},
+    }
 
 
-def run(
-    cases: Sequence[Case], folder: Path, jobs: int = 1, tell: Callable[[Score], None] = print
-) -> list[Score]:
+def run(cases, folder, jobs=1, tell=print):
     """The scores of cases, in their order; those that `folder` remembers are not run again.
 
     Args:

@@ -1,6 +1,6 @@
 """The results as a page in Markdown."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 
 from tests.hidden_effects.drives import NOISE
 from tests.hidden_effects.score import DETECTABLE, Key, Score
@@ -38,14 +38,16 @@ def _to_name(score: Score) -> bool:
 
 
 SINGLE = {
-    **{f"First, {level}": count(lambda s: s.first, lambda s, level=level: s.noise == level)
-       for level in NOISE},
+    **{
+        f"First, {level}": count(lambda s: s.first, lambda s, level=level: s.noise == level)
+        for level in NOISE
+    },
     "First": count(lambda s: s.first),
     "Joint": count(lambda s: s.joint),
     "Tie": count(lambda s: s.tied),
     "Exact": count(lambda s: s.exact),
     "Fall": _fall,
-}  # fmt: skip
+}
 CLEAN = {"False alarms": count(lambda s: not s.exact)}
 PAIRS = {
     "First is one": SINGLE["First"],
@@ -80,12 +82,20 @@ def page(scores: Sequence[Score]) -> str:
         ("One effect", [s for s in named if len(s.hidden) == 1], _effects, SINGLE),
         ("Nothing hidden", [s for s in named if not s.hidden], _noise, CLEAN),
         ("Two effects", [s for s in named if len(s.hidden) == 2], _noise, PAIRS),
-        ("Coarse encoders, noisy positions", [s for s in scores if s.sensor != FINE],
-         lambda s: SENSORS[s.sensor].told, BY_SENSOR),
-        ("The hidden effect withheld from the catalogue", [s for s in seen if s.withheld],
-         _effects, OUTSIDE),
+        (
+            "Coarse encoders, noisy positions",
+            [s for s in scores if s.sensor != FINE],
+            lambda s: SENSORS[s.sensor].told,
+            BY_SENSOR,
+        ),
+        (
+            "The hidden effect withheld from the catalogue",
+            [s for s in seen if s.withheld],
+            _effects,
+            OUTSIDE,
+        ),
         ("Causes outside the catalogue", [s for s in seen if s.held_out], _effects, OUTSIDE),
-    ):  # fmt: skip
+    ):
         if some:
             parts += [f"## {title}\n", table(some, row, columns)]
     parts += ["## Misses\n", _list([score for score in seen if not score.right])]
@@ -93,9 +103,7 @@ def page(scores: Sequence[Score]) -> str:
     return "\n".join(parts)
 
 
-def table(
-    scores: Sequence[Score], row: Callable[[Score], str], columns: Mapping[str, Column]
-) -> str:
+def table(scores, row, columns):
     """A row for all scores of which `row` gives the same name, and one for all."""
     by_name: dict[str, list[Score]] = {}
     for score in scores:

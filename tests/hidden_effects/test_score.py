@@ -15,19 +15,28 @@ from tests.hidden_effects.table import page
 
 def truth(*hidden, visible=1.0, noise="med", sensor=FINE):
     """Of effects: name, joint and a second joint; a sensor's fault is on joint 2."""
-    named = [{"effect": e, "joint": j, "values": dict(zip(["with_joint"], more, strict=False))}
-             for e, j, *more in hidden]  # fmt: skip
+    named = [
+        {"effect": e, "joint": j, "values": dict(zip(["with_joint"], more, strict=False))}
+        for e, j, *more in hidden
+    ]
     of_joint = {"joint": "2"} if SENSORS[sensor].of_joint else {}
-    return {"hidden": named, "visible": [visible] * len(named), "noise": noise, "robot": "3R",
-            "sensor": {"kind": sensor} | of_joint}  # fmt: skip
+    return {
+        "hidden": named,
+        "visible": [visible] * len(named),
+        "noise": noise,
+        "robot": "3R",
+        "sensor": {"kind": sensor} | of_joint,
+    }
 
 
 def said(*findings, ties=(), data=(), verdict="missing"):
     """Of findings: name, joint and status."""
     tied = [{"effect": e, "joint": j} for e, j in ties]
     errors = {"ties": tied, "error_before": 0.10, "error_after": 0.04}
-    effects = [{"effect": e, "joint": j, "status": "".join(status) or "likely"} | errors
-               for e, j, *status in findings]  # fmt: skip
+    effects = [
+        {"effect": e, "joint": j, "status": "".join(status) or "likely"} | errors
+        for e, j, *status in findings
+    ]
     verdict = verdict if findings else "nothing significant"
     return {"effects": effects, "verdict": verdict, "seconds": 1.0, "data_warnings": list(data)}
 
@@ -79,7 +88,7 @@ FAULTS = {
     "gain elsewhere": ("gain", said(("drive_gain", "1", "confirmed")), False, 1),
     "gain of either": ("gain", said(("drive_gain", "1"), ties=[("drive_gain", "2")]), True, 0),
     "friction computed": ("computed", said(("coulomb", "1")), False, 1),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", FAULTS)
@@ -93,8 +102,11 @@ def test_a_wrong_log_is_told(name):
 def test_the_page_counts():
     band, hose = ("dead_band", "2"), ("hose_across", "1", "2")
     verdicts = {"missing": [SPRING], "closest description": [SPRING], "unexplained": []}
-    held_out = [scored(f"{cause[0]}-{name}", truth(cause), said(*findings) | {"verdict": name})
-                for cause in (band, hose) for name, findings in verdicts.items()]  # fmt: skip
+    held_out = [
+        scored(f"{cause[0]}-{name}", truth(cause), said(*findings) | {"verdict": name})
+        for cause in (band, hose)
+        for name, findings in verdicts.items()
+    ]
     assert [score.right for score in held_out] == 2 * [False, True, True]
     scores = [
         scored("spring-med-1", truth(SPRING), said(SPRING)),

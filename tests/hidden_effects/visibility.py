@@ -12,7 +12,7 @@ from scipy.signal import butter, sosfiltfilt
 
 from tests.hidden_effects.drives import NOISE, Scales
 from tests.hidden_effects.effects import LOADS
-from tests.hidden_effects.plant import Plant, Run, rate
+from tests.hidden_effects.plant import Plant, rate
 from tests.hidden_effects.robots import point_inertia
 from tests.hidden_effects.sensors import logged_torque
 
@@ -47,9 +47,7 @@ class Left:
     encoder: np.ndarray
 
 
-def left_over(
-    plant: Plant, without: Plant, name: str, admitted: Effects, delay: float, trial: Trial
-) -> Left | None:
+def left_over(plant, without, name, admitted, delay, trial):
     """What is left over of an effect without noise; None if the arm runs away.
 
     Args:
@@ -117,9 +115,7 @@ def _rms(values: np.ndarray, used: np.ndarray) -> np.ndarray:
     return np.array([np.sqrt((own[use] ** 2).mean()) for own, use in rows])
 
 
-def regression(
-    plant: Plant, run: Run, delay: float, effects: Effects
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def regression(plant, run, delay, effects):
     """Regressor (rows, n, columns), torque (rows, n) and which of them to use, below 30 Hz."""
     low = butter(4, 40, fs=1000, output="sos")
     q = sosfiltfilt(low, run.encoder, axis=0)

@@ -44,9 +44,7 @@ def test_what_cannot_be_added_is_left_out_with_its_reason(case: Case, sprung: Me
     assert line.startswith("left out: elasticity, joint 2 (elasticity: cannot be added (the joint")
 
 
-def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(
-    case: Case, sprung: Mended, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(case, sprung, monkeypatch):
     first = dataclasses.replace(sprung.diagnosis.effects[0], warning="it may be another")
     same, (line,) = add_findings(sprung.model, case.compiled, [first], sprung.logs)
     assert same is sprung.model and line.endswith("(weak evidence: it may be another)")
@@ -60,9 +58,7 @@ def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(
 
 
 @pytest.mark.rotating("effects are added to simulated runs")
-def test_what_is_not_needed_beside_all_the_rest_is_taken_out_again(
-    case: Case, sprung: Mended, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_is_not_needed_beside_all_the_rest_is_taken_out_again(case, sprung, monkeypatch):
     wide = added_model.is_unneeded
     monkeypatch.setattr(module, "is_unneeded", lambda m, s: s.effect == "spring" or wide(m, s))
     better, left_out = add_findings(
@@ -72,9 +68,7 @@ def test_what_is_not_needed_beside_all_the_rest_is_taken_out_again(
     assert any("spring, joint 3 (with the others in, none of its values" in s for s in left_out)
 
 
-def test_an_effect_is_needed_unless_all_of_its_values_are_below_their_sigmas(
-    sprung: Mended,
-) -> None:
+def test_an_effect_is_needed_unless_all_of_its_values_are_below_their_sigmas(sprung):
     better, step = sprung.better, sprung.better.history[-1]
     assert not added_model.is_unneeded(better, step)
     for sigmas, needed in ((1.5, True), (-1.5, True), (0.9, False)):

@@ -32,9 +32,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("words", REFUSED)
-def test_what_cannot_be_added_is_refused_in_one_line(
-    arm: Path, run: Run, tmp_path: Path, words: str
-) -> None:
+def test_what_cannot_be_added_is_refused_in_one_line(arm, run, tmp_path, words):
     effect, *joint = words.split()
     outputs = ("--out", tmp_path / "m2.json", "--robot-out", tmp_path / "r.toml")
     words_ = ("add", arm / "m.json", effect, *joint, arm / "train.parquet", *outputs)

@@ -2,22 +2,16 @@
 
 import dataclasses
 import shlex
-from pathlib import Path
 
 import pytest
 
+from modeler import views
 from modeler.core.errors import DataError
 from modeler.diagnosis.add import resolve_effect
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.plausibility import find_caveat
 from modeler.effects import CATALOGUE, Effect, EffectTarget, find_effect
-from modeler.views import (
-    suggest_after_add,
-    suggest_after_compare,
-    suggest_after_diagnosis,
-    suggest_after_fit,
-)
-from tests.diagnose.conftest import Case, Run, spring
+from tests.diagnose.conftest import Case, spring
 
 
 @pytest.mark.parametrize(
@@ -36,7 +30,7 @@ def test_what_is_suggested_can_be_added(case: Case, effect: Effect) -> None:
     candidate = Candidate(effect, effect.forms[0], None if whole else "3", 2)
     pick = dataclasses.replace(first.pick, candidate=candidate)
     one = dataclasses.replace(first, effect=effect.id, joint=candidate.joint, pick=pick)
-    commands = suggest_after_diagnosis(
+    commands = views.suggest_after_diagnosis(
         "m", ["a"], ["b"], dataclasses.replace(found, effects=(one,))
     )
     for _, command, _, *rest in map(shlex.split, commands):
@@ -53,11 +47,11 @@ def test_what_is_suggested_can_be_added(case: Case, effect: Effect) -> None:
 def test_no_command_has_a_name_that_is_no_file(case: Case) -> None:
     fit = case.hidden(spring)[0].fit
     every = [
-        *suggest_after_fit("m", ["a"], "r", fit),
-        *suggest_after_add("m", ["a"], [], fit),
-        *suggest_after_add("m", ["a"], ["b"], fit),
+        *views.suggest_after_fit("m", ["a"], "r", fit),
+        *views.suggest_after_add("m", ["a"], [], fit),
+        *views.suggest_after_add("m", ["a"], ["b"], fit),
         *(
-            suggest_after_compare("m", ["a"], ["b"], held, noise)
+            views.suggest_after_compare("m", ["a"], ["b"], held, noise)
             for held in (0, 1)
             for noise in (0, 1)
         ),
@@ -69,9 +63,7 @@ def test_no_command_has_a_name_that_is_no_file(case: Case) -> None:
 
 
 @pytest.mark.rotating("effects are added to simulated runs")
-def test_what_is_printed_runs(
-    arm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
-) -> None:
+def test_what_is_printed_runs(arm, tmp_path, monkeypatch, run):
     monkeypatch.chdir(tmp_path)
     words = ("--duration", 10, "--rate", 200, "--seed", 4, "--out", "a.csv")
     assert run("simulate", "demo-arm", "--hide", "viscous@2", *words)[0] == 0

@@ -106,9 +106,7 @@ REMEMBERED = {
 
 @pytest.mark.rotating("effects are added to simulated runs")
 @pytest.mark.parametrize("effect", REMEMBERED)
-def test_one_that_reads_another_joint_or_remembers_is_found_with_its_values(
-    remembering: Case, effect: str
-) -> None:
+def test_one_that_reads_another_joint_or_remembers_is_found_with_its_values(remembering, effect):
     torque, asked, joint, name, value, shapes, signals = REMEMBERED[effect]
     model, train, holdout = remembering.hidden(torque)
     logs = LogSplit([train], [holdout])

@@ -41,8 +41,10 @@ def changed(*factors: float, share: float = 0.0, seed: int = 0) -> Score:
     """Every joint's residual by a factor, and with a share of something else in it."""
     old = [coloured(seed, j) for j in range(len(factors))]
     other = [coloured(seed + 100, j) for j in range(len(factors))]
-    new = [f * (math.sqrt(1.0 - share**2) * e + share * o)
-           for f, e, o in zip(factors, old, other, strict=True)]  # fmt: skip
+    new = [
+        f * (math.sqrt(1.0 - share**2) * e + share * o)
+        for f, e, o in zip(factors, old, other, strict=True)
+    ]
     return score_change(unseen(*old), unseen(*new))
 
 

@@ -16,6 +16,7 @@ from tests.chain import chain_of
 from tests.diagnose.conftest import Case, Run, motion, on_joint
 from tests.diagnose.test_diagnose_discover import two_links
 from tests.improve.conftest import BRAKE, brake, long_runs
+from tests.rotation import with_cases
 
 FAR = """
 [own_effects.leaning]
@@ -100,20 +101,29 @@ def test_what_two_files_define_alike_counts_once(folder: Path) -> None:
     assert [e.id for e in parse_robot_text(text, "x").own_effects] == ["eddy_brake", "learned_2"]
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "said"),
-    [
-        ("v*exp", "a*exp", "x.toml: [own_effects.eddy_brake]: defined otherwise in the file of "
-         "spinner; rename one of the two"),
-        ("eddy_brake", "magnet", "x.toml: [own_effects.magnet], columns: the parameter \"Keb\" is "
-         "that of eddy_brake already; choose another name"),
-        ("eddy_brake", "spring", '[own_effects.spring]: "spring" is spring of the catalogue'),
-        ("]\n", "\n", "not TOML"),
-        ("c)/w", "q2)/q2", "no equation uses c; use it or take it out"),
-        ("eddy_brake]", "b]\nshapes = {v1 = [1, 2]}\ncolumns = {Kn = \"v1*v\"}\n[other]",
-         'got the name "v1", which is the speed of joint 1; choose another'),
-    ],
-)  # fmt: skip
+@with_cases(
+    "old, new, said",
+    (
+        "v*exp",
+        "a*exp",
+        "x.toml: [own_effects.eddy_brake]: defined otherwise in the file of "
+        "spinner; rename one of the two",
+    ),
+    (
+        "eddy_brake",
+        "magnet",
+        'x.toml: [own_effects.magnet], columns: the parameter "Keb" is '
+        "that of eddy_brake already; choose another name",
+    ),
+    ("eddy_brake", "spring", '[own_effects.spring]: "spring" is spring of the catalogue'),
+    ("]\n", "\n", "not TOML"),
+    ("c)/w", "q2)/q2", "no equation uses c; use it or take it out"),
+    (
+        "eddy_brake]",
+        'b]\nshapes = {v1 = [1, 2]}\ncolumns = {Kn = "v1*v"}\n[other]',
+        'got the name "v1", which is the speed of joint 1; choose another',
+    ),
+)
 def test_mistakes_name_the_file(tmp_path: Path, old: str, new: str, said: str) -> None:
     robot = parse_robot_text(ROBOT + BRAKE, "spinner.toml")
     (tmp_path / "x.toml").write_text(BRAKE.replace(old, new), encoding="utf-8")
@@ -153,8 +163,9 @@ def test_an_export_tries_the_values_that_were_found_and_their_neighbours() -> No
     assert text.startswith("[own_effects.eddy_brake]\n") and text.count("[own_effects") == 1
     (effect,) = parse_robot_text(ROBOT + text, "other.toml").own_effects
     assert {s.name: s.grid for s in effect.forms[0].nonlinear_parameters} == {
-        "c": (-1.4, -0.4, 0.7, 1.7), "w": (0.0625, 0.125, 0.25, 0.5)
-    }  # fmt: skip
+        "c": (-1.4, -0.4, 0.7, 1.7),
+        "w": (0.0625, 0.125, 0.25, 0.5),
+    }
     (before,) = robot.own_effects
     assert (effect.title, effect.columns) == (before.title, before.columns)
     unused = parse_robot_text(ROBOT + BRAKE, "spinner.toml")
@@ -207,10 +218,12 @@ def test_what_cannot_be_exported(tmp_path: Path, run: Run) -> None:
         (("eddy_brake",), "--export: is of --robot; add that"),
         (("eddy_brak", "--robot", own), 'eddy_brak: no such effect (did you mean "eddy_brake"?)'),
         (("spring", "--robot", own), "spring: every robot may have it; expected one that spinner"),
-        (("eddy_brake", "--robot", own, "--out", tmp_path, "--force"),
-         "this is the robot file that is read; expected a name of its own"),
+        (
+            ("eddy_brake", "--robot", own, "--out", tmp_path, "--force"),
+            "this is the robot file that is read; expected a name of its own",
+        ),
         (("eddy_brake", "--robot", "emps"), "expected one that emps defines: none"),
-    ):  # fmt: skip
+    ):
         status, out, err = run("effects", "--export", *words)
         assert (status, out) == (1, "") and said in err and err.count("\n") == 1
     assert list(tmp_path.iterdir()) == [own]

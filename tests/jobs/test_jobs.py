@@ -59,10 +59,14 @@ def test_an_interrupt_or_a_kill_while_they_start_leaves_no_word(killed: bool) ->
         "        import time; time.sleep(20)\n"
     )
     running = subprocess.Popen(
-        [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        start_new_session=True, cwd=Path(__file__).parents[2],
+        [sys.executable, "-c", program],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        cwd=Path(__file__).parents[2],
         preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),  # a shell's & ignores it
-    )  # fmt: skip
+    )
     assert running.stdout is not None and running.stdout.readline() == "begun\n"
     (os.kill if killed else os.killpg)(running.pid, signal.SIGKILL if killed else signal.SIGINT)
     err = running.communicate(timeout=60)[1]  # which all processes hold, so that all have ended

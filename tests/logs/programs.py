@@ -64,16 +64,32 @@ def german_excel(folder: Path, table: Table) -> Path:
 def labview(folder: Path, table: Table) -> Path:
     """An .lvm file: two headers, no name of its own for the time, a column of comments."""
     n, x = len(table["time"]), "\t".join
-    first = ["LabVIEW Measurement\t", "Writer_Version\t2", "Reader_Version\t2", "Separator\tTab",
-             "Decimal_Separator\t.", "Multi_Headings\tNo", "X_Columns\tOne",
-             "Time_Pref\tAbsolute", "Operator\tme", "Date\t2024/05/01",
-             "Time\t12:00:00.1234567890123456789", "***End_of_Header***\t", "\t"]  # fmt: skip
-    second = ["Channels\t6\t\t\t\t\t\t", f"Samples\t{x([str(n)] * 6)}\t",
-              f"Date\t{x(['2024/05/01'] * 6)}\t", f"Time\t{x(['12:00:00.12345'] * 6)}\t",
-              f"Y_Unit_Label\t{x(['deg'] * 3 + ['N m'] * 3)}\t",
-              f"X_Dimension\t{x(['Time'] * 6)}\t",
-              f"X0\t{x(['0.0000000000000000E+0'] * 6)}\t", f"Delta_X\t{x(['0.001000'] * 6)}\t",
-              "***End_of_Header***\t\t\t\t\t\t\t"]  # fmt: skip
+    first = [
+        "LabVIEW Measurement\t",
+        "Writer_Version\t2",
+        "Reader_Version\t2",
+        "Separator\tTab",
+        "Decimal_Separator\t.",
+        "Multi_Headings\tNo",
+        "X_Columns\tOne",
+        "Time_Pref\tAbsolute",
+        "Operator\tme",
+        "Date\t2024/05/01",
+        "Time\t12:00:00.1234567890123456789",
+        "***End_of_Header***\t",
+        "\t",
+    ]
+    second = [
+        "Channels\t6\t\t\t\t\t\t",
+        f"Samples\t{x([str(n)] * 6)}\t",
+        f"Date\t{x(['2024/05/01'] * 6)}\t",
+        f"Time\t{x(['12:00:00.12345'] * 6)}\t",
+        f"Y_Unit_Label\t{x(['deg'] * 3 + ['N m'] * 3)}\t",
+        f"X_Dimension\t{x(['Time'] * 6)}\t",
+        f"X0\t{x(['0.0000000000000000E+0'] * 6)}\t",
+        f"Delta_X\t{x(['0.001000'] * 6)}\t",
+        "***End_of_Header***\t\t\t\t\t\t\t",
+    ]
     names = [f"pos {j}" for j in "123"] + [f"torque {j}" for j in "123"]
     head = "\n".join([*first, *second, f"X_Value\t{x(names)}\tComment"])
     return written(
@@ -91,12 +107,17 @@ def controller(folder: Path, table: Table) -> Path:
 def twincat(folder: Path, table: Table) -> Path:
     """An export of TwinCAT Scope: who recorded it, then names, types, cycle, units."""
     symbols = [f"MAIN.axis{j}.{kind}" for kind in ("ActPos", "ActTorque") for j in (1, 2, 3)]
-    head = ["Name\tYT Scope Project", "File\tC:\\Scope\\run.tcscopex",
-            "Starttime of export\t133590384000000000\tWednesday, May 1, 2024",
-            "Endtime of export\t133590384060000000\tWednesday, May 1, 2024", "",
-            "Name\t" + "\t".join(symbols), "Data-Type" + "\tREAL64" * 6,
-            "SampleTime[ms]" + "\t1" * 6,
-            "Unit\t" + "\t".join(["°"] * 3 + ["Nm"] * 3)]  # fmt: skip
+    head = [
+        "Name\tYT Scope Project",
+        "File\tC:\\Scope\\run.tcscopex",
+        "Starttime of export\t133590384000000000\tWednesday, May 1, 2024",
+        "Endtime of export\t133590384060000000\tWednesday, May 1, 2024",
+        "",
+        "Name\t" + "\t".join(symbols),
+        "Data-Type" + "\tREAL64" * 6,
+        "SampleTime[ms]" + "\t1" * 6,
+        "Unit\t" + "\t".join(["°"] * 3 + ["Nm"] * 3),
+    ]
     return written(
         folder / "scope.csv",
         "\n".join(head) + "\n" + text_of(rows_of(table, q=DEG, time=1e3), "\t"),
@@ -196,9 +217,10 @@ def lerobot(folder: Path, table: Table) -> Path:
     frame = np.arange(n) - episode * (n // 2)
     names = ["shoulder_pan", "shoulder_lift", "elbow_flex"]
     lists = {
-        "observation.state": joined(table, "q") * DEG, "action": joined(table, "q") * DEG,
+        "observation.state": joined(table, "q") * DEG,
+        "action": joined(table, "q") * DEG,
         "observation.effort": joined(table, "tau"),
-    }  # fmt: skip
+    }
     columns = {
         k: pa.array([*v.astype("float32")], pa.list_(pa.float32())) for k, v in lists.items()
     }

@@ -19,10 +19,15 @@ from tests.logs.writers import parquet
 
 TABLES = [
     {"time": "t [ms]", "q<j>": "pos[{n}] [deg]", "tau<j>": {"column": "load_{j}", "sign": -1}},
-    {"q2": {"column": "enc 2 [x]", "unit": "rev/8192", "scale": 0.01, "sign": -1, "offset": 3.5},
-     "rate": 500.0, "topic": "/joint_states", "names": {"1": "waist"}, "q<j>": "p.{name}"},
+    {
+        "q2": {"column": "enc 2 [x]", "unit": "rev/8192", "scale": 0.01, "sign": -1, "offset": 3.5},
+        "rate": 500.0,
+        "topic": "/joint_states",
+        "names": {"1": "waist"},
+        "q<j>": "p.{name}",
+    },
     {"files": {"q": "_q.csv", "tau": "_tau.csv"}, "current<j>": "c{n+6}", "time": "pos [deg] [s]"},
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize("table", TABLES)
@@ -159,8 +164,7 @@ def test_options_stand_in_the_robot_file(slide, tmp_path, run, monkeypatch):
     model = load_model("n.json")
     assert (model.fit.method, model.processing.position_cutoff) == ("weighted", 60)
     assert model.processing.decimation == 7
-    argv = ["fit", "emps", log, "--out", "p.json", "--method", "ordinary", "--cutoff", "40",
-            "--decimate", "7"]  # fmt: skip
+    argv = ["fit", "emps", log, *"--out p.json --method ordinary --cutoff 40 --decimate 7".split()]
     run(*argv)
     assert values(tmp_path / "m.json") == pytest.approx(values(tmp_path / "p.json"), rel=1e-12)
     _, out, err = run("diagnose", "m.json", log, "--json", "d.json")

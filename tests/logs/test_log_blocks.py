@@ -100,9 +100,11 @@ def test_units_rates_and_names_are_mapped_in_blocks(ending, tmp_path, case):
     columns = {k: v for k, v in columns.items() if k not in ("time", "temperature", "note")}
     path = written(
         tmp_path / f"run{ending}",
-        {f"pos{k[1:]}" if k[0] == "q" else k: np.degrees(v) if k[0] == "q" else v
-         for k, v in columns.items()},
-    )  # fmt: skip
+        {
+            f"pos{k[1:]}" if k[0] == "q" else k: np.degrees(v) if k[0] == "q" else v
+            for k, v in columns.items()
+        },
+    )
     mapping = build_map({"q<j>": "pos{j} [deg]", "rate": 100.0}, "here")
     whole, log = (
         read_log(path, spec, mapping),

@@ -26,8 +26,9 @@ PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
 HEAD = "".join(
     f'<c r="{c}1" t="inlineStr"><is><t>{n}</t></is></c>' for c, n in (("A", "time"), ("B", "q1"))
 )
-ROWS = "".join(f'<row r="{i}"><c r="A{i}"><v>{i}</v></c><c r="B{i}"><v>2</v></c></row>'
-               for i in range(2, 30))  # fmt: skip
+ROWS = "".join(
+    f'<row r="{i}"><c r="A{i}"><v>{i}</v></c><c r="B{i}"><v>2</v></c></row>' for i in range(2, 30)
+)
 
 
 def workbook(path, rows, shared=""):
@@ -138,12 +139,20 @@ def swollen_chunk(path):
 
 
 BOMBS = {
-    "far.xlsx": far_cell, "bare.xlsx": cells_without_places, "text.xlsx": long_text,
-    "understated.xlsx": understated, "list.parquet": long_list, "text.parquet": same_text,
-    "columns.parquet": many_columns, "chunk.h5": large_chunk, "swollen.h5": swollen_chunk,
-    "zeros.npz": zeros, "zeros.mat": zeros, "stated.mcap": stated_mcap,
+    "far.xlsx": far_cell,
+    "bare.xlsx": cells_without_places,
+    "text.xlsx": long_text,
+    "understated.xlsx": understated,
+    "list.parquet": long_list,
+    "text.parquet": same_text,
+    "columns.parquet": many_columns,
+    "chunk.h5": large_chunk,
+    "swollen.h5": swollen_chunk,
+    "zeros.npz": zeros,
+    "zeros.mat": zeros,
+    "stated.mcap": stated_mcap,
     "stated.bag": stated_bag,
-}  # fmt: skip
+}
 SAID = ("expected at most 100 times the file", "more than it states", "read as spreadsheet")
 READ = """
 import resource, sys
@@ -170,9 +179,12 @@ def test_no_small_file_fills_the_memory(tmp_path):
     """In a process of its own, whose memory is measured."""
     places = [str(make(tmp_path / name)) for name, make in BOMBS.items()]
     done = subprocess.run(
-        [sys.executable, "-c", READ, *places], capture_output=True, text=True, check=True,
+        [sys.executable, "-c", READ, *places],
+        capture_output=True,
+        text=True,
+        check=True,
         timeout=60,
-    )  # fmt: skip
+    )
     *lines, peak = done.stdout.splitlines()
     for place, line in zip(places, lines, strict=True):
         assert line.startswith(f"{place}: "), line

@@ -18,6 +18,7 @@ from modeler.regression.read import open_source
 from tests.logs.test_log_clocks import csv
 from tests.logs.writers import JOINTS, ORDERS, joined
 from tests.rotation import rotating
+from tests.texts import read_pairs
 
 NAMES = "names=1:waist,2:shoulder,3:elbow"
 
@@ -37,7 +38,7 @@ SHOWN = {
     "numpy over lines": lambda row: f'"{np.array2string(row, precision=17, max_line_width=30)}"',
     "tuple": lambda row: f'"{tuple(row.tolist())}"',
     "array": lambda row: f'"array({row.tolist()})"',
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(
@@ -77,8 +78,12 @@ def test_names_in_columns_say_which_joint_is_which(short, tmp_path):
     for field, values in (("name", names), ("position", q), ("effort", tau)):
         columns |= {f"field.{field}{k}": values[:, k] for k in range(3)}
     short.check(csv(tmp_path / "run.csv", columns, show=str), ["auto", NAMES])
-    table = {"time": short.table["time"], "name": names.tolist(), "position": q.tolist(),
-             "effort": tau.tolist()}  # fmt: skip
+    table = {
+        "time": short.table["time"],
+        "name": names.tolist(),
+        "position": q.tolist(),
+        "effort": tau.tolist(),
+    }
     other = tmp_path / "run.parquet"
     pq.write_table(pa.table(table), other, row_group_size=81)  # blocks begin with either order
     mapping = ["q<j>=position[{name}]", "tau<j>=effort[{name}]", NAMES]
@@ -88,17 +93,17 @@ def test_names_in_columns_say_which_joint_is_which(short, tmp_path):
     assert whole == pytest.approx(joined(short.table, "q"))
 
 
-COMMANDED = [
-    "AccCmptd", "qdd_des", "ddq_d", "tau_J_d", "VelocityCmptd", "torque_ref", "target_moment",
-    "cmd.effort", "TorqueSetpoint", "acc_goal", "planned_velocity", "tau_computed", "taucmd",
-    "reference.velocities", "vel_soll",
-]  # fmt: skip
-POSITIONS = ["PositionCmptd", "q_d", "q_ref", "target_q", "qdes", "state.desired.positions",
-             "cmd/pos", "points.positions"]  # fmt: skip
-MEASURED = {
-    "actual_q": "q", "pos_feedback": "q", "tau_J": "tau", "cmd_controller/actual.position": "q",
-    "reference_robot.measured_torque": "tau", "target_current_actual": "current",
-}  # fmt: skip
+COMMANDED = """
+    AccCmptd qdd_des ddq_d tau_J_d VelocityCmptd torque_ref target_moment cmd.effort TorqueSetpoint
+    acc_goal planned_velocity tau_computed taucmd reference.velocities vel_soll
+""".split()
+POSITIONS = """
+    PositionCmptd q_d q_ref target_q qdes state.desired.positions cmd/pos points.positions
+""".split()
+MEASURED = read_pairs("""
+    actual_q q pos_feedback q tau_J tau cmd_controller/actual.position q
+    reference_robot.measured_torque tau target_current_actual current
+""")
 
 
 def test_what_is_commanded_is_not_measured():
@@ -112,11 +117,16 @@ def test_commanded_columns_beside_measured_ones(short, tmp_path):
     """As drives of an arm call them; units in names do not make them measured."""
     run, table = short.table, {"Time": short.table["time"]}
     for k in (1, 2, 3):
-        table |= {f"Position{k}": run[f"q{k}"], f"TorqueCur{k}": run[f"tau{k}"] * 7.0,
-                  f"Torque{k}": run[f"tau{k}"], f"Cur{k}": run[f"tau{k}"] * 0.1,
-                  f"PositionCmptd{k}": run[f"q{k}"] + 0.1, f"AccCmptd{k}": 0.0 * run["time"],
-                  f"vel_cmd_{k} [deg/s]": run[f"q{k}"],
-                  f"error_{k} [deg]": run[f"q{k}"]}  # fmt: skip
+        table |= {
+            f"Position{k}": run[f"q{k}"],
+            f"TorqueCur{k}": run[f"tau{k}"] * 7.0,
+            f"Torque{k}": run[f"tau{k}"],
+            f"Cur{k}": run[f"tau{k}"] * 0.1,
+            f"PositionCmptd{k}": run[f"q{k}"] + 0.1,
+            f"AccCmptd{k}": 0.0 * run["time"],
+            f"vel_cmd_{k} [deg/s]": run[f"q{k}"],
+            f"error_{k} [deg]": run[f"q{k}"],
+        }
     path = csv(tmp_path / "run.csv", table)
     log = short.check(path, ["auto"])
     assert log.qdd is None and log.qd is None

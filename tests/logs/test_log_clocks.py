@@ -15,14 +15,13 @@ from modeler.logs.readers import read_columns
 from modeler.logs.times import describe_coarse_clock, find_stamp_pairs
 from modeler.regression.read import open_source
 from tests.logs.writers import START, joined, stamps
+from tests.texts import read_rows
 
-PAIRS = [
-    ("sec", "nanosec", "time"), ("secs", "nsecs", "time"),
-    ("header.stamp.sec", "header.stamp.nanosec", "header.stamp"),
-    ("stamp_sec", "stamp_nanosec", "stamp"), ("tv_sec", "tv_nsec", "tv.time"),
-    ("/js/header/stamp/sec", "/js/header/stamp/nanosec", "/js/header/stamp"),
-    ("stampSec", "stampNsec", "stamp"),
-]  # fmt: skip
+PAIRS = read_rows("""
+    sec nanosec time; secs nsecs time; header.stamp.sec header.stamp.nanosec header.stamp;
+    stamp_sec stamp_nanosec stamp; tv_sec tv_nsec tv.time;
+    /js/header/stamp/sec /js/header/stamp/nanosec /js/header/stamp; stampSec stampNsec stamp
+""")
 
 
 @pytest.mark.parametrize(("seconds", "fraction", "name"), PAIRS)
@@ -37,8 +36,10 @@ def test_names_that_are_no_pair():
 def two_columns(table, kind=int):
     """The table with its time in whole seconds, of that kind, and nanoseconds."""
     moments = np.array(stamps(table))
-    time = {"header.stamp.sec": (moments // 10**9).astype(kind),
-            "header.stamp.nanosec": moments % 10**9}  # fmt: skip
+    time = {
+        "header.stamp.sec": (moments // 10**9).astype(kind),
+        "header.stamp.nanosec": moments % 10**9,
+    }
     return time | {name: v for name, v in table.items() if name != "time"}
 
 

@@ -30,8 +30,12 @@ COMMANDS = [
 def test_the_model_file_carries_the_names(slide, tmp_path, run, words):
     found = []
     for model, ending in (("m.json", "mat"), ("p.json", "parquet")):
-        places = {"model": slide / model, "a": slide / f"a.{ending}", "b": slide / f"b.{ending}",
-                  "out": tmp_path / "out.json"}  # fmt: skip
+        places = {
+            "model": slide / model,
+            "a": slide / f"a.{ending}",
+            "b": slide / f"b.{ending}",
+            "out": tmp_path / "out.json",
+        }
         argv = [word.format(**places) for word in words.split()]
         status, _, err = run(*argv, "--json", tmp_path / "r.json")
         assert (status, err) == (0, "")
@@ -51,8 +55,11 @@ def numbers(value):
 def test_from_python_too(slide):
     assert values(slide / "m.json") == pytest.approx(values(slide / "p.json"), rel=1e-12)
     model = load_model(slide / "p.json")
-    mapping = {"time": "run.t [ms]", "q1": {"column": "run.x", "unit": "mm", "sign": -1},
-               "tau1": "run.F [kN]"}  # fmt: skip
+    mapping = {
+        "time": "run.t [ms]",
+        "q1": {"column": "run.x", "unit": "mm", "sign": -1},
+        "tau1": "run.F [kN]",
+    }
     found = compare(model, [slide / "b.mat"], mapping).to_dict()
     twin = compare(model, [slide / "b.parquet"]).to_dict()
     assert found["relative_error"] == pytest.approx(twin["relative_error"], rel=1e-9)

@@ -11,6 +11,7 @@ from modeler.logs.log_table import LogTable
 from tests.logs import writers
 from tests.logs.programs import sheet
 from tests.logs.writers import Run, json_states
+from tests.texts import read_rows
 
 WRITTEN = {
     "mat": (writers.mat, "run.mat", ""),
@@ -109,8 +110,7 @@ def test_arrays_without_a_motion(tmp_path):
         LogTable(tmp_path / "run.npz")
 
 
-MISSING = [("run.h5", "h5py"), ("run.mcap", "rosbags"), ("run.bag", "rosbags"),
-           ("run.xlsx", "python-calamine")]  # fmt: skip
+MISSING = read_rows("run.h5 h5py; run.mcap rosbags; run.bag rosbags; run.xlsx python-calamine")
 
 
 @pytest.mark.parametrize(("name", "package"), MISSING)

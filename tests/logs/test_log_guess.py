@@ -5,6 +5,7 @@ import pytest
 
 from modeler.logs.guess import format_log_table, guess_columns
 from modeler.logs.mapping import find_unit
+from tests.rotation import with_cases
 
 
 def _found(names: list[str]) -> dict[str, tuple[str, tuple[str, ...]]]:
@@ -14,18 +15,18 @@ def _found(names: list[str]) -> dict[str, tuple[str, tuple[str, ...]]]:
     return {one.quantity: (one.template, one.labels) for one in guess_columns(columns, {})}
 
 
-@pytest.mark.parametrize(
-    ("names", "own", "template", "labels"),
-    [
-        (["Ellbogen Winkel [Grad]", "Schulter Winkel [Grad]"], "q", "{} Winkel [Grad]",
-         ("Ellbogen", "Schulter")),
-        (["elbow_torque", "shoulder_torque"], "tau", "{}_torque", ("elbow", "shoulder")),
-        (["angle elbow (deg)", "angle shoulder (deg)"], "q", "angle {} (deg)",
-         ("elbow", "shoulder")),
-        (["shoulder pan pos", "shoulder lift pos"], "q", "{} pos",
-         ("shoulder pan", "shoulder lift")),
-    ],
-)  # fmt: skip
+@with_cases(
+    "names, own, template, labels",
+    (
+        ["Ellbogen Winkel [Grad]", "Schulter Winkel [Grad]"],
+        "q",
+        "{} Winkel [Grad]",
+        ("Ellbogen", "Schulter"),
+    ),
+    (["elbow_torque", "shoulder_torque"], "tau", "{}_torque", ("elbow", "shoulder")),
+    (["angle elbow (deg)", "angle shoulder (deg)"], "q", "angle {} (deg)", ("elbow", "shoulder")),
+    (["shoulder pan pos", "shoulder lift pos"], "q", "{} pos", ("shoulder pan", "shoulder lift")),
+)
 def test_joints_that_are_words(names, own, template, labels) -> None:
     assert _found(names)[own] == (template, labels)
 

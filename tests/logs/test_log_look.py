@@ -227,10 +227,17 @@ def odd(rng, n):
     """A column as a broken logger leaves it."""
     t = np.arange(n) * 10.0 ** rng.integers(-9, 9)
     return (
-        t, t[::-1], rng.normal(size=n), np.full(n, np.nan), np.full(n, 1.5),
-        np.where(rng.random(n) < 0.5, np.nan, rng.normal(size=n)), 1e300 * rng.normal(size=n),
-        np.full(n, np.inf), np.round(1e4 * rng.normal(size=n)), 1e-310 * np.sin(t),
-    )[rng.integers(10)]  # fmt: skip
+        t,
+        t[::-1],
+        rng.normal(size=n),
+        np.full(n, np.nan),
+        np.full(n, 1.5),
+        np.where(rng.random(n) < 0.5, np.nan, rng.normal(size=n)),
+        1e300 * rng.normal(size=n),
+        np.full(n, np.inf),
+        np.round(1e4 * rng.normal(size=n)),
+        1e-310 * np.sin(t),
+    )[rng.integers(10)]
 
 
 def test_whatever_is_in_it_is_told(tmp_path):

@@ -80,10 +80,16 @@ def table_of(tmp_path, mapping, names=("t", "a", "b", "c", "d"), **columns):
 
 CONVERTED = [
     ({"q1": "a [deg]"}, "q1", lambda v: np.deg2rad(v["a"])),
-    ({"q1": {"column": "a", "unit": "rev/100", "sign": -1, "offset": 25}}, "q1",
-     lambda v: (25.0 - v["a"]) * 2 * np.pi / 100),
-    ({"qd1": {"column": "a", "unit": "rpm", "scale": 0.01}}, "qd1",
-     lambda v: v["a"] * 0.01 * 2 * np.pi / 60),
+    (
+        {"q1": {"column": "a", "unit": "rev/100", "sign": -1, "offset": 25}},
+        "q1",
+        lambda v: (25.0 - v["a"]) * 2 * np.pi / 100,
+    ),
+    (
+        {"qd1": {"column": "a", "unit": "rpm", "scale": 0.01}},
+        "qd1",
+        lambda v: v["a"] * 0.01 * 2 * np.pi / 60,
+    ),
     ({"q2": "b [mm]"}, "q2", lambda v: v["b"] / 1000),
     ({"tau1": {"column": "a", "unit": "kg cm"}}, "tau1", lambda v: v["a"] * 9.80665 / 100),
     ({"tau1": {"column": "a", "unit": "lb in"}}, "tau1", lambda v: v["a"] * known.lbf * known.inch),
@@ -100,7 +106,7 @@ CONVERTED = [
     (["names=1:a,2:b", "q<j>={name}"], "q2", lambda v: v["b"]),
     (["q<j>=a:deg", "q<j>=b:rev", "q2=c:mm"], "q1", lambda v: v["b"] * 2 * np.pi),
     (["rate=100"], "time", lambda v: np.arange(40) / 100),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("mapping", "own", "expected"), CONVERTED)
@@ -129,8 +135,11 @@ def test_places_of_joints_are_counted_from_one_or_zero(tmp_path):
 
 
 WRONG = [
-    ({"q2": "b [deg]"}, r'R, q2: got unit "deg", which is an angle; q2 is a position of joint 2, '
-     r"which is prismatic: expected a unit such as mm, m, in"),
+    (
+        {"q2": "b [deg]"},
+        r'R, q2: got unit "deg", which is an angle; q2 is a position of joint 2, '
+        r"which is prismatic: expected a unit such as mm, m, in",
+    ),
     ({"q1": "a [mm]"}, r'R, q1: got unit "mm", which is a length; q1 is a position of joint 1'),
     ({"qd1": "a [deg]"}, r"qd1 is a speed of joint 1, .*such as deg/s, rad/s, rev/s, rpm"),
     ({"tau1": "a [mA]"}, r"is a current; tau1 is a torque .*; a current is called current<j>"),
@@ -153,7 +162,7 @@ WRONG = [
     (["rate=fast"], r"mapping rate=fast: got fast; expected a number"),
     (["names=1"], r"mapping names=1: got 1; expected JOINT:NAME"),
     (["none.toml"], r"mapping none.toml: cannot be read \(No such file or directory\)"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("mapping", "words"), WRONG)

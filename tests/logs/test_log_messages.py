@@ -35,8 +35,16 @@ def test_messages_of_every_profile(profile, encoding, packing, short, tmp_path):
         "ros1": ("ros1msg", "sensor_msgs/JointState", ROS1_HEADER),
         "cdr": ("ros2msg", writers.KIND, writers.HEADER),
     }[encoding]
-    path = mcap_of(tmp_path / "run.mcap", profile, messages, encoding, form, kind,
-                   (writers.FIELDS + header).encode(), packing)  # fmt: skip
+    path = mcap_of(
+        tmp_path / "run.mcap",
+        profile,
+        messages,
+        encoding,
+        form,
+        kind,
+        (writers.FIELDS + header).encode(),
+        packing,
+    )
     assert "by their headers" in read_columns(path, ColumnRequest()).notes[0]
     short.check(path, MAPPING)
 
@@ -89,12 +97,14 @@ CONTROL = {
     "trajectory_msgs/msg/JointTrajectoryPoint": "float64[] positions\nfloat64[] velocities\n"
     "float64[] accelerations\nfloat64[] effort\nbuiltin_interfaces/Duration time_from_start",
     "control_msgs/msg/JointTrajectoryControllerState": "std_msgs/Header header\n"
-    "string[] joint_names\n" + "\n".join(
-        f"trajectory_msgs/JointTrajectoryPoint {part}" for part in
-        ("reference", "feedback", "error", "output")),
+    "string[] joint_names\n"
+    + "\n".join(
+        f"trajectory_msgs/JointTrajectoryPoint {part}"
+        for part in ("reference", "feedback", "error", "output")
+    ),
     "trajectory_msgs/msg/JointTrajectory": "std_msgs/Header header\nstring[] joint_names\n"
     "trajectory_msgs/JointTrajectoryPoint[] points",
-}  # fmt: skip
+}
 
 
 class Control:
@@ -116,11 +126,15 @@ class Control:
     def point(self, q=(), effort=(), since=0.0):
         none = np.zeros(0)
         return self.of(
-            "trajectory_msgs/msg/JointTrajectoryPoint", positions=np.array(q, float),
-            velocities=none, accelerations=none, effort=np.array(effort, float),
-            time_from_start=self.of("builtin_interfaces/msg/Duration", sec=int(since),
-                                    nanosec=round(since % 1.0 * 1e9)),
-        )  # fmt: skip
+            "trajectory_msgs/msg/JointTrajectoryPoint",
+            positions=np.array(q, float),
+            velocities=none,
+            accelerations=none,
+            effort=np.array(effort, float),
+            time_from_start=self.of(
+                "builtin_interfaces/msg/Duration", sec=int(since), nanosec=round(since % 1.0 * 1e9)
+            ),
+        )
 
     def bag(self, path, kind, messages):
         from rosbags.rosbag2 import Writer
@@ -137,27 +151,38 @@ def test_values_by_the_names_of_interfaces(headers, short, tmp_path):
     ros, kind, messages = Control(), "control_msgs/msg/DynamicJointState", []
     for stamp, names, q, tau in states(short.table):
         values = [
-            ros.of("control_msgs/msg/InterfaceValue", interface_names=["effort", "position"],
-                   values=np.array([b, a]))
+            ros.of(
+                "control_msgs/msg/InterfaceValue",
+                interface_names=["effort", "position"],
+                values=np.array([b, a]),
+            )
             for a, b in zip(q, tau, strict=True)
-        ]  # fmt: skip
+        ]
         header = ros.header(stamp if headers == "valid" else 0)
         late = 700_000 if headers == "valid" and len(messages) % 2 else 0
-        messages.append((stamp + late, ros.of(kind, header=header, joint_names=names,
-                                              interface_values=values)))  # fmt: skip
+        messages.append(
+            (stamp + late, ros.of(kind, header=header, joint_names=names, interface_values=values))
+        )
     short.check(ros.bag(tmp_path / "bag", kind, messages), MAPPING)
 
 
 def test_feedback_is_measured_and_reference_is_commanded(short, tmp_path):
     ros, kind = Control(), "control_msgs/msg/JointTrajectoryControllerState"
     messages = [
-        (stamp, ros.of(
-            kind, header=ros.header(stamp), joint_names=names, reference=ros.point(q + 0.1),
-            feedback=ros.point(q, tau), error=ros.point(0.1 + 0.0 * q),
-            output=ros.point((), 9.0 * tau),
-        ))
+        (
+            stamp,
+            ros.of(
+                kind,
+                header=ros.header(stamp),
+                joint_names=names,
+                reference=ros.point(q + 0.1),
+                feedback=ros.point(q, tau),
+                error=ros.point(0.1 + 0.0 * q),
+                output=ros.point((), 9.0 * tau),
+            ),
+        )
         for stamp, names, q, tau in states(short.table)
-    ]  # fmt: skip
+    ]
     log = short.check(ros.bag(tmp_path / "bag", kind, messages), MAPPING)
     assert log.commanded == pytest.approx(log.q + 0.1)
 

@@ -32,7 +32,7 @@ TOLD = {
     "a folder of MAT files": "one motion in 3 files: q.mat, t.mat, tau.mat",
     "LeRobot": "time is that of the frames at 1000 Hz, as info.json says; every episode is a "
     "segment",
-}  # fmt: skip
+}
 """What is said of files of some kinds when they are read."""
 SELDOM = ("RTDE of Universal Robots", "pandas with an ISO index", "a folder of quantities")
 """Which differ from others in their names only."""
@@ -160,7 +160,7 @@ BROKEN = [
     ({}, "is a folder without metadata.yaml, meta/info.json or logs"),
     ({"a": "q1;time\n" + "1;x\n" * 30}, "column time, row 1: got"),
     ({"a": NOON}, 'row 21: got "noon"'),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("texts", "line"), BROKEN)
@@ -193,10 +193,16 @@ def test_sheets_are_chosen_by_name(short, tmp_path):
 
 
 RATES = [
-    ("Sample rate: 2 kHz", 2000.0), ("Abtastrate;500,0;Hz", 500.0), ("fs = 250 Hz", 250.0),
-    ("Delta_X\t0.004", 250.0), ("SampleTime[ms];2", 500.0), ("cycle time = 4 ms", 250.0),
-    ("dt: 1e-3", 1000.0), ("Zykluszeit: 8 ms", 125.0), ("robot 500, run 3", None),
-]  # fmt: skip
+    ("Sample rate: 2 kHz", 2000.0),
+    ("Abtastrate;500,0;Hz", 500.0),
+    ("fs = 250 Hz", 250.0),
+    ("Delta_X\t0.004", 250.0),
+    ("SampleTime[ms];2", 500.0),
+    ("cycle time = 4 ms", 250.0),
+    ("dt: 1e-3", 1000.0),
+    ("Zykluszeit: 8 ms", 125.0),
+    ("robot 500, run 3", None),
+]
 
 
 @pytest.mark.parametrize(("line", "rate"), RATES)
@@ -220,14 +226,18 @@ def test_a_value_beside_arrays_tells_the_rate(ending, name, value, tmp_path):
 
 
 HEADS = [
-    ("time,Position,,Torque,\n,J1,J2,J1,J2\n", ",", "",
-     ["time", "Position[J1]", "Position[J2]", "Torque[J1]", "Torque[J2]"]),
+    (
+        "time,Position,,Torque,\n,J1,J2,J1,J2\n",
+        ",",
+        "",
+        ["time", "Position[J1]", "Position[J2]", "Torque[J1]", "Torque[J2]"],
+    ),
     ("sep=;\nt;a;b;c;d\n", ";", "", ["t", "a", "b", "c", "d"]),
     ("t;a;b;c;d\n", ";", ";", ["t", "a", "b", "c", "d", "c6"]),
     ("t a   b c   d e   f g   h i\n", "  ", "", ["t a", "b c", "d e", "f g", "h i"]),
     ("0,1,2,3,4\n", ",", "", ["c1", "c2", "c3", "c4", "c5"]),
     ("", ",", "", ["c1", "c2", "c3", "c4", "c5"]),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("head", "delimiter", "end", "names"), HEADS)
@@ -245,12 +255,16 @@ def test_heads_of_other_programs(head, delimiter, end, names, tmp_path):
 
 @settings(max_examples=60, deadline=None)
 @given(
-    delimiter=st.sampled_from([",", ";", "\t", "|", "  "]), comma=st.booleans(),
+    delimiter=st.sampled_from([",", ";", "\t", "|", "  "]),
+    comma=st.booleans(),
     title=st.sampled_from([[], ["# run 3"], ["Robot: arm", "Operator: me, myself"]]),
-    names=st.sampled_from(["plain", "comment", "none"]), units=st.booleans(),
+    names=st.sampled_from(["plain", "comment", "none"]),
+    units=st.booleans(),
     encoding=st.sampled_from(["utf-8", "utf-8-sig", "utf-16", "cp1252"]),
-    ends=st.sampled_from(["\n", "\r\n"]), width=st.integers(2, 9), seed=st.integers(0, 2**31),
-)  # fmt: skip
+    ends=st.sampled_from(["\n", "\r\n"]),
+    width=st.integers(2, 9),
+    seed=st.integers(0, 2**31),
+)
 def test_any_habit_is_read_back(
     tmp_path_factory, delimiter, comma, title, names, units, encoding, ends, width, seed
 ):

@@ -141,8 +141,13 @@ def mcap(path: Path, table: Run) -> Path:
         writer.write_message("/rosout", text, {"data": "hello"}, START)
         for k, (stamp, names, q, tau) in enumerate(states(table)):
             header = {"stamp": _stamp(stamp), "frame_id": ""}
-            message = {"header": header, "name": names, "position": q.tolist(), "velocity": [],
-                       "effort": tau.tolist()}  # fmt: skip
+            message = {
+                "header": header,
+                "name": names,
+                "position": q.tolist(),
+                "velocity": [],
+                "effort": tau.tolist(),
+            }
             writer.write_message("/joint_states", joint, message, stamp + 50_000)
             if k % 100 == 50:
                 message = {"header": header, "temperature": 20.0 + k, "variance": 0.0}
@@ -152,10 +157,15 @@ def mcap(path: Path, table: Run) -> Path:
 
 
 def mcap_of(
-    path: Path, profile: str, messages: Iterable[tuple], encoding: str = "json",
-    form: str = "jsonschema", kind: str = "JointStates", definition: bytes = b"{}",
+    path: Path,
+    profile: str,
+    messages: Iterable[tuple],
+    encoding: str = "json",
+    form: str = "jsonschema",
+    kind: str = "JointStates",
+    definition: bytes = b"{}",
     compression: str = "LZ4",
-) -> Path:  # fmt: skip
+) -> Path:
     """Messages as (topic, ns, bytes); the library of the format writes them."""
     reason = "NOT CHECKED: needs mcap; pip install mcap"
     writer_of = pytest.importorskip("mcap.writer", reason=reason)
@@ -193,7 +203,7 @@ def serialized(table: Run, ros1: bool = False, gripper: bool = False) -> Iterato
         header = types["std_msgs/msg/Header"](stamp=time, frame_id="", **seq)
         joints = types[KIND](
             header=header, name=names, position=q, velocity=np.zeros(0), effort=tau
-        )  # fmt: skip
+        )
         return bytes(write(joints, KIND))
 
     for k, (stamp, names, q, tau) in enumerate(states(table)):
@@ -210,9 +220,7 @@ def store_of(ros1: bool) -> Any:
     return Stores.ROS1_NOETIC if ros1 else Stores.ROS2_HUMBLE
 
 
-def bag(
-    path: Path, table: Run, storage: str = "SQLITE3", extra_topic: str = "", gripper: bool = False
-) -> Path:
+def bag(path, table, storage="SQLITE3", extra_topic="", gripper=False):
     """A ROS 2 bag as a folder; with another robot's joint states if a topic is given for them."""
     reason = "NOT CHECKED: needs rosbags; pip install rosbags"
     rosbag2 = pytest.importorskip("rosbags.rosbag2", reason=reason)

@@ -12,23 +12,20 @@ from modeler.core.errors import DataError
 from modeler.core.options import AddOptions
 from modeler.robot.read import read_robot
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate
-from tests.further_robots import FurtherRobots
 from tests.robots import ROBOTS
-from tests.rotation import ROTATING, slow_rotating
+from tests.rotation import ROTATING, slow_rotating, with_cases
 
 
 @pytest.mark.rotating("long tests of loops")
-@pytest.mark.parametrize(
+@with_cases(
     "name",
-    [
-        "five-bar",
-        *(pytest.param(name, marks=ROTATING)
-          for name in ("orthoglide-2003", "orthoglide-leg", "3rpr_passive", "excavator_sim")),
-    ],
-)  # fmt: skip
-def test_a_hidden_friction_is_named_and_added(
-    name: str, loop_robots_folder: FurtherRobots, tmp_path: Path
-) -> None:
+    "five-bar",
+    *(
+        pytest.param(name, marks=ROTATING)
+        for name in ("orthoglide-2003", "orthoglide-leg", "3rpr_passive", "excavator_sim")
+    ),
+)
+def test_a_hidden_friction_is_named_and_added(name, loop_robots_folder, tmp_path):
     """Of the second motor: named first, added, and gone after.
 
     Joints without motor that swing, as of the leg, have rows 0 = W beta: a diagnosis must not be
@@ -67,9 +64,7 @@ def logged(robot: str, folder: Path, name: str, seed: int, *hidden: str) -> str:
 
 
 @slow_rotating("logs of robots with loops")
-def test_a_load_on_the_platform_is_called_a_load(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_load_on_the_platform_is_called_a_load(tmp_path, capsys):
     """The mass of a platform that translates acts like masses of the legs that end on it."""
     hidden = ("--hide", "payload:mass=1.983")
     plain = logged("orthoglide-2003", tmp_path, "a.csv", 1)

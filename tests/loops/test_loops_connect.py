@@ -28,12 +28,7 @@ ROCKER = """<body name="rocker" pos="0.4 0 0"><joint name="rocker"/>
   <geom fromto="0 0 0 0.4 0 -0.1"/></body></body>
   <body name="out" pos="0.8 0 0"><joint name="out"/><geom fromto="0 0 0 0.1 0 0.4"/></body>"""
 TEXTS = {
-    "two loops": (
-        PLANAR,
-        CRANK + ROCKER,
-        "coupler rocker 0.45 0 0.1; rod out 0.4 0 -0.1",
-        "crank",
-    ),
+    "two loops": (PLANAR, CRANK + ROCKER, "coupler rocker 0.45 0 0.1; rod out 0.4 0 -0.1", "crank"),
     "slider in space": (
         "<joint/>",
         """<body name="arm" pos="0 0 0.1"><joint name="arm"/><geom fromto="0 0 0 0.2 0 0"/>
@@ -46,12 +41,15 @@ TEXTS = {
     ),
     "pinned to the world": (
         PLANAR,
-        CRANK.replace("</body></body>", """<body name="last" pos="0.45 0 0.1"><joint name="last"/>
-        <geom fromto="0 0 0 0.02 0 -0.35"/></body></body></body>"""),
+        CRANK.replace(
+            "</body></body>",
+            """<body name="last" pos="0.45 0 0.1"><joint name="last"/>
+        <geom fromto="0 0 0 0.02 0 -0.35"/></body></body></body>""",
+        ),
         "last - 0.02 0 -0.35",
         "crank",
     ),
-}  # fmt: skip
+}
 
 
 def parallelograms() -> tuple[str, str, str, str]:

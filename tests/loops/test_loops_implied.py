@@ -25,7 +25,7 @@ from tests.oracles.closed_ways import closed_near, open_at, reached
 from tests.oracles.complex_step import Oracle
 from tests.robot_texts import FOUR_BAR, OFFSET, PANTOGRAPH
 from tests.robots import one_always
-from tests.rotation import ROTATING, rotating
+from tests.rotation import ROTATING, rotating, with_cases
 
 # file -> inertial base parameters and all, by an independent program; kind of proof
 FILES = {
@@ -160,15 +160,13 @@ def written(model, base):
     return {n: e.text for n, e in model.robot.relations.items()}, terms
 
 
-@pytest.mark.parametrize(
-    ("change", "relation", "special"),
-    [
-        (("w = 0.4", "w = 0.4"), "q1 - w", False),
-        (("w = 0.4", 'v = 0.1\nw = "pi/4 + 3*v/2"'), "q1 - 3*v/2 - pi/4", False),
-        (("w = 0.4", 'v = 0.3\nw = "sqrt(v)"'), "q1 - w", False),
-        (('"w"', "0.4123"), "q1 - 4123/10000", False),
-        ((', "L", 0],\n  ["3e"', ', "K", 0],\n  ["3e"'), "q1 - w", True),
-    ],
+@with_cases(
+    "change, relation, special",
+    (("w = 0.4", "w = 0.4"), "q1 - w", False),
+    (("w = 0.4", 'v = 0.1\nw = "pi/4 + 3*v/2"'), "q1 - 3*v/2 - pi/4", False),
+    (("w = 0.4", 'v = 0.3\nw = "sqrt(v)"'), "q1 - w", False),
+    (('"w"', "0.4123"), "q1 - 4123/10000", False),
+    ((', "L", 0],\n  ["3e"', ', "K", 0],\n  ["3e"'), "q1 - w", True),
 )
 def test_constants_of_relations(change, relation, special):
     """Sums of symbols and pi, symbols that are no such sums, numbers; equal values by chance."""

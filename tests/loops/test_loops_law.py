@@ -35,7 +35,7 @@ FOLDER = "loop_robots_folder"
 OUTSIDE = [
     *rotating("rccc_wide", "offset_parallelogram", "twoloops"),
     *(pytest.param(n, marks=ROTATING) for n in ("3rpr_sim", "excavator_bucket")),
-]  # fmt: skip
+]
 
 POSTURES, PATHS, LENGTH = 40, 1, 60
 OPEN = 1e-9  # sizes of the robot, or 1
@@ -120,9 +120,7 @@ class Verdict:
         return Verdict(*(a + b for a, b in zip(astuple(self), astuple(more), strict=True)))
 
 
-def judged(
-    oracle: Oracle, start: np.ndarray, q: np.ndarray, u: np.ndarray, steps: int = STEPS
-) -> Verdict:
+def judged(oracle, start, q, u, steps=STEPS):
     """Postures u (n, len(u)), NaN where there is no status 0, against straight ways from start.
 
     Args:

@@ -19,7 +19,7 @@ ROBOTS = [
     "five-bar",
     *rotating("sr400", "orthoglide-2003"),
     *(pytest.param(name, marks=ROTATING) for name in ("3rrr", "delta", "stewart", "evra")),
-]  # fmt: skip
+]
 
 
 def smooth_motion(robot, time):

@@ -13,7 +13,7 @@ from modeler.robot.read import parse_robot_text
 from tests.base.ranks import seen
 from tests.modules import module
 from tests.robots import TIED, one_always
-from tests.rotation import ROTATING, rotating
+from tests.rotation import ROTATING, rotating, with_cases
 
 # facts of the papers, each computed there by two independent methods:
 # base parameters, standard parameters, without effect
@@ -53,20 +53,22 @@ ALL = (r"^priority", 'shared = ["*1{i}", "*2{i}", "*3{i}", "*4{i}", "*5{i}"]\npr
 ORDER = (r"^priority = .*$", 'priority = ["*6"]')
 
 
-@pytest.mark.parametrize(
-    ("changes", "rank"),
-    [
-        ([NO_PASSIVE, LEGS, OFFSETS, ORDER], 23),
-        *rotating(([NO_PASSIVE], 41), ([ALL, ORDER], 19)),
-        *(
-            pytest.param(*variant, marks=ROTATING)
-            for variant in (
-                ([NO_PASSIVE, OFFSETS], 43), ([OFFSETS], 55), ([NO_PASSIVE, LEGS, ORDER], 21),
-                ([LEGS, ORDER], 25), ([LEGS, OFFSETS, ORDER], 27), ([NO_PASSIVE, ALL, ORDER], 15),
-            )
-        ),
-    ],
-)  # fmt: skip
+@with_cases(
+    "changes, rank",
+    ([NO_PASSIVE, LEGS, OFFSETS, ORDER], 23),
+    *rotating(([NO_PASSIVE], 41), ([ALL, ORDER], 19)),
+    *(
+        pytest.param(*variant, marks=ROTATING)
+        for variant in (
+            ([NO_PASSIVE, OFFSETS], 43),
+            ([OFFSETS], 55),
+            ([NO_PASSIVE, LEGS, ORDER], 21),
+            ([LEGS, ORDER], 25),
+            ([LEGS, OFFSETS, ORDER], 27),
+            ([NO_PASSIVE, ALL, ORDER], 15),
+        )
+    ),
+)
 def test_the_orthoglide_of_2012_in_all_its_variants(changes, rank):
     base = variant("orthoglide-2012", *changes)
     assert base.rank == rank

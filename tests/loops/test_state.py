@@ -37,9 +37,7 @@ class Robot(NamedTuple):
         given = [self.memory, *given] if role.endswith("_at") else given
         return getattr(self.library, f"{self.spec.prefix}_{role}")(*given), result
 
-    def state(
-        self, q: np.ndarray, qd: np.ndarray, first: bool = False, most: int | None = None
-    ) -> int:
+    def state(self, q, qd, first=False, most=None):
         """Status of `<prefix>_state`, or with `most` of `<prefix>_state_with_bound`."""
         arrays = [np.ascontiguousarray(x) for x in (q, qd)]
         previous = None if first else ctypes.c_void_p(self.library.last_posture(self.memory))

@@ -28,17 +28,20 @@ check       can the stated values be those of a machine? Status 1 if a fact cann
 def parser() -> argparse.ArgumentParser:
     """Options."""
     made = argparse.ArgumentParser(
-        "python -m tests.measured_sets", description=__doc__, epilog=EPILOG,
+        "python -m tests.measured_sets",
+        description=__doc__,
+        epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
-    )  # fmt: skip
+    )
     add = made.add_argument
     add("command", choices=COMMANDS, help="what to ask, see below")
     add("--sets", help=f"names with commas; default: {','.join(SETS)}")
     add("--directions", default=",".join(DIRECTIONS), help="default: %(default)s")
     add(
-        "--factors", default=",".join(f"{factor:g}" for factor in FACTORS),
+        "--factors",
+        default=",".join(f"{factor:g}" for factor in FACTORS),
         help="cut-offs over those that the fit chooses, both; not for auto; default: %(default)s",
-    )  # fmt: skip
+    )
     add("--data", type=Path, default=DATA, help="folder of the measured logs, one folder a set")
     add("--out", type=Path, help="folder that keeps results: run again, and it goes on")
     add("--jobs", type=int, default=1, help="processes; default: 1")
@@ -72,9 +75,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     cases = _here(cases_of(options), options.data)
     memory = options.out / file if options.out else None
     answers = run(
-        cases, options.data, ask, memory, options.jobs,
+        cases,
+        options.data,
+        ask,
+        memory,
+        options.jobs,
         lambda answer: print(line(answer), file=sys.stderr, flush=True),
-    )  # fmt: skip
+    )
     if answers:
         print(page(answers))
     return int(options.command == "check" and any(map(wrong, answers)))

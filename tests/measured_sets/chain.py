@@ -65,8 +65,10 @@ def improved(case: Case, data: Path) -> Answer:
     with _clock(seconds, "add"):
         findings = [*found.effects, *found.refinements]
         better, left_out = add_findings(fitted.model, fitted.chain.compiled, findings, fitted.logs)
-    score = score_change(_unseen(fitted, fitted.model, fitted.chain.compiled),
-                   _unseen(fitted, better, load_compiled(better.spec, better.sources)))  # fmt: skip
+    score = score_change(
+        _unseen(fitted, fitted.model, fitted.chain.compiled),
+        _unseen(fitted, better, load_compiled(better.spec, better.sources)),
+    )
     return Answer(case, _told(better, left_out, score), seconds)
 
 

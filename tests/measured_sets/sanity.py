@@ -100,9 +100,11 @@ def _friction_faults(found: Diagnosis, finding: Finding) -> Iterator[str]:
     columns, torque, speed = _friction(state, pick.index)
     if not columns:
         return  # a model without friction says nothing of the whole
-    levels = {c.prefix: finding.parameters[name] for c, name in
-              zip(pick.form.columns, pick.list_parameter_names(), strict=True)
-              if Requirement.FRICTION in pick.effect.needs}  # fmt: skip
+    levels = {
+        c.prefix: finding.parameters[name]
+        for c, name in zip(pick.form.columns, pick.list_parameter_names(), strict=True)
+        if Requirement.FRICTION in pick.effect.needs
+    }
     for name, level in (levels | _coulomb(state, columns)).items():
         yield from level_fault(name, level, torque)
     yield from driving_fault(torque, speed)

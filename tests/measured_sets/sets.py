@@ -34,8 +34,10 @@ class MeasuredSet:
 
     def logs(self, data: Path, direction: str) -> tuple[list[str], list[str]]:
         """What is fitted and what is held out, as places; the other way round if exchanged."""
-        pair = [[_place(data / self.name, log) for log in some]
-                for some in (self.training, self.held_out)]  # fmt: skip
+        pair = [
+            [_place(data / self.name, log) for log in some]
+            for some in (self.training, self.held_out)
+        ]
         first, second = pair if direction == "forward" else pair[::-1]
         return first, second
 

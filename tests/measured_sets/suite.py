@@ -1,6 +1,6 @@
 """Running cases: each is asked once and stored in a file; errors are asked again."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -19,10 +19,7 @@ def answered(case: Case, data: Path, ask: Ask) -> Answer:
         return Answer(case, {}, error=f"{type(problem).__name__}: {problem}")
 
 
-def run(
-    cases: Sequence[Case], data: Path, ask: Ask, memory: Path | None = None, jobs: int = 1,
-    tell: Callable[[Answer], None] = print,
-) -> list[Answer]:  # fmt: skip
+def run(cases, data, ask, memory=None, jobs=1, tell=print):
     """The answers to cases about the logs in a folder; the rest is as in `asked_once`."""
     chain = partial(answered, data=data, ask=ask)
     return asked_once(cases, chain, memory, answer_from_json, jobs, tell, lambda a: not a.error)

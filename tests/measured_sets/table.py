@@ -129,5 +129,6 @@ def _steps(answer: Answer) -> str:
 
 def _by_set(answers: Sequence[Answer], judge: Callable[[Sequence[Answer]], str]) -> str:
     names = dict.fromkeys(answer.case.set for answer in answers)
-    return "\n".join(f"- {name}: {judge([a for a in answers if a.case.set == name])}"
-                     for name in names)  # fmt: skip
+    return "\n".join(
+        f"- {name}: {judge([a for a in answers if a.case.set == name])}" for name in names
+    )

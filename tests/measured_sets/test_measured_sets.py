@@ -17,8 +17,14 @@ from tests.measured_sets.table import improvement, sanity, stability, stays, wro
 def finding(effect, joint, agrees=True, caveat=""):
     errors = {"error_before": 0.1, "error_after": 0.05, "gain": 0.75}
     looks = [{"label": "cut-offs x 0.7", "leading_effect": None, "agrees": agrees}]
-    return {"effect": effect, "joint": joint, "ties": [{"effect": "drift", "joint": joint}],
-            "splits": looks, "caveat": caveat, **errors}  # fmt: skip
+    return {
+        "effect": effect,
+        "joint": joint,
+        "ties": [{"effect": "drift", "joint": joint}],
+        "splits": looks,
+        "caveat": caveat,
+        **errors,
+    }
 
 
 EMPS = Case("emps", "forward")
@@ -34,17 +40,27 @@ FAILED = Answer(Case("emps", "exchanged"), {}, error="DataError: no rows")
 
 #             answers, what is said of the set
 STAYS = {
-    "the same": ([answer(SPRING), answer(SPRING, DELAY)],
-                 "stays (of 2 stated: spring@2 2; named first: spring@2 2)"),
-    "another joint": ([answer(SPRING), answer(finding("spring", "3"))],
-                      "MOVES (of 2 stated: spring@2 1, spring@3 1; "
-                      "named first: spring@2 1, spring@3 1)"),
-    "not stated": ([answer(SPRING), answer(DELAY, verdict="closest description"),
-                    answer(verdict="unexplained")],
-                   "stays (of 3 stated: spring@2 1; named first: spring@2 1, time_delay 1)"),
-    "failed": ([answer(), FAILED],
-               "FAILS in 1; stays (of 2 stated: nothing; named first: nothing)"),
-}  # fmt: skip
+    "the same": (
+        [answer(SPRING), answer(SPRING, DELAY)],
+        "stays (of 2 stated: spring@2 2; named first: spring@2 2)",
+    ),
+    "another joint": (
+        [answer(SPRING), answer(finding("spring", "3"))],
+        "MOVES (of 2 stated: spring@2 1, spring@3 1; named first: spring@2 1, spring@3 1)",
+    ),
+    "not stated": (
+        [
+            answer(SPRING),
+            answer(DELAY, verdict="closest description"),
+            answer(verdict="unexplained"),
+        ],
+        "stays (of 3 stated: spring@2 1; named first: spring@2 1, time_delay 1)",
+    ),
+    "failed": (
+        [answer(), FAILED],
+        "FAILS in 1; stays (of 2 stated: nothing; named first: nothing)",
+    ),
+}
 
 
 @pytest.mark.parametrize("case", STAYS)
@@ -62,8 +78,14 @@ def test_the_tables():
     assert "| error | DataError: no rows |" in text
     assert "\n- emps: FAILS in 1; MOVES (of 3 stated: spring@2 1, spring@1 1;" in text
 
-    said = {"joints": {"1": [0.05, 0.03], "2": [0.02, 0.021]}, "whole": 0.63, "scatter": 4.25,
-            "rises": ["2"], "spoilt": False, "left_out": ["drift, joint 2 (no)"]}  # fmt: skip
+    said = {
+        "joints": {"1": [0.05, 0.03], "2": [0.02, 0.021]},
+        "whole": 0.63,
+        "scatter": 4.25,
+        "rises": ["2"],
+        "spoilt": False,
+        "left_out": ["drift, joint 2 (no)"],
+    }
     said["kept"] = [{"effect": "motor_ripple", "joint": "1", "nonlinear_parameters": {"m": 84.0}}]
     text = improvement([Answer(Case("ur10e", "forward"), said, {"add": 2.0}), FAILED])
     assert "| ur10e | forward | 1: 5 -> 3; 2: 2 -> 2.1! | 0.630 | 4.2 | 2.0 add |" in text

@@ -6,21 +6,16 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from modeler.papers.guegan import (
-    RUNS,
-    _compute_condition_number,
-    _exchange_motions,
-    compute_cube_range,
-)
+from modeler.papers import guegan
 
 D, STRAIGHT = 0.31, 0.19
 
 
 def motors(p):
     """Bars hold the platform on spheres."""
-    return np.array([
-        STRAIGHT + p[i] + D - np.sqrt(D**2 - p[i - 1] ** 2 - p[i - 2] ** 2) for i in range(3)
-    ])  # fmt: skip
+    return np.array(
+        [STRAIGHT + p[i] + D - np.sqrt(D**2 - p[i - 1] ** 2 - p[i - 2] ** 2) for i in range(3)]
+    )
 
 
 def speeds(p, h=1e-6):
@@ -30,7 +25,7 @@ def speeds(p, h=1e-6):
 
 
 def test_the_platform_is_half_to_twice_as_fast_over_the_cube():
-    lower, upper = compute_cube_range(D, STRAIGHT)
+    lower, upper = guegan.compute_cube_range(D, STRAIGHT)
     low = lower - STRAIGHT
     high = brentq(lambda t: motors(np.full(3, t))[0] - upper, 0.0, 0.2)
     assert high - low == pytest.approx(0.2, abs=1e-3)  # the Orthoglide's cube
@@ -50,9 +45,9 @@ def test_the_choice_finds_motions_that_excite_what_others_leave():
     W = rng.normal(size=(22, 50, 3)) * [1.0, 1.0, 1e-4]
     W[[4, 17], :, 2] = rng.normal(size=(2, 50))
     every = np.einsum("nri,nrj->nij", W, W)
-    wanted = _compute_condition_number(
+    wanted = guegan._compute_condition_number(
         every[[4, 17]].sum(axis=0) + every[:8].sum(axis=0) - every[4]
     )
-    start = np.array([k for k in range(22) if k not in (4, 17)][:RUNS])
-    found = _exchange_motions(every, start)
-    assert found < 1.5 * wanted < 0.01 * _compute_condition_number(every[start].sum(axis=0))
+    start = np.array([k for k in range(22) if k not in (4, 17)][: guegan.RUNS])
+    found = guegan._exchange_motions(every, start)
+    assert found < 1.5 * wanted < 0.01 * guegan._compute_condition_number(every[start].sum(axis=0))

@@ -10,17 +10,10 @@ from modeler.cli import main
 from modeler.cli.demonstrations import METHODS
 from modeler.core.choices import list_papers
 from modeler.core.errors import RobotError
-from modeler.papers.methods import (
-    MethodRow,
-    MethodTable,
-    Outcome,
-    judge_recovery,
-    read_quotation,
-    read_table,
-)
+from modeler.papers import methods
 from modeler.papers.paper import read_paper
 from tests.json_schemas import check_schema
-from tests.rotation import slow_rotating
+from tests.rotation import slow_rotating, with_cases
 
 TITLES = {
     "guegan-2003": "Blocks; Table 2; The direction; Table 3; Condition; The exciting",
@@ -72,12 +65,10 @@ def check_figure_2(result):
     assert np.std(slope) < 0.1 * np.std(acceleration)
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        (("hanssen-2000", "--section", "print"), "figures are of the methods"),
-        (("guegan-2003", "--section", "methods"), "guegan-2003 has no figure to draw; leave it"),
-    ],
+@with_cases(
+    "words, message",
+    (("hanssen-2000", "--section", "print"), "figures are of the methods"),
+    (("guegan-2003", "--section", "methods"), "guegan-2003 has no figure to draw; leave it"),
 )
 def test_a_picture_that_is_not_there_is_refused(capsys, monkeypatch, tmp_path, words, message):
     monkeypatch.setitem(METHODS, "guegan-2003", lambda paper, report: [])
@@ -86,8 +77,8 @@ def test_a_picture_that_is_not_there_is_refused(capsys, monkeypatch, tmp_path, w
 
 
 def test_a_method_that_fails_ends_with_status_1(capsys, monkeypatch):
-    row = MethodRow("MPR", "1.5", "2.5", Outcome.FAILED)
-    table = MethodTable("Table 3", (), (row,))
+    row = methods.MethodRow("MPR", "1.5", "2.5", methods.Outcome.FAILED)
+    table = methods.MethodTable("Table 3", (), (row,))
     monkeypatch.setitem(METHODS, "guegan-2003", lambda paper, report: [table])
     assert main(["reproduce", "guegan-2003", "--section", "methods"]) == 1
     out, err = capsys.readouterr()
@@ -96,22 +87,25 @@ def test_a_method_that_fails_ends_with_status_1(capsys, monkeypatch):
 
 
 def test_a_value_far_from_the_truth_is_not_recovered():
-    assert judge_recovery("M", "1", 1.0, 1.3, 0.1).outcome is Outcome.RECOVERED
-    assert judge_recovery("M", "1", 1.0, 1.5, 0.1).outcome is Outcome.FAILED
-    assert judge_recovery("M", "1", 1.0, 1.0, 0.0).outcome is Outcome.FAILED
-    assert judge_recovery("M", "1", 9.0, 1.0, 0.63).outcome is Outcome.FAILED
+    assert methods.judge_recovery("M", "1", 1.0, 1.3, 0.1).outcome is methods.Outcome.RECOVERED
+    assert methods.judge_recovery("M", "1", 1.0, 1.5, 0.1).outcome is methods.Outcome.FAILED
+    assert methods.judge_recovery("M", "1", 1.0, 1.0, 0.0).outcome is methods.Outcome.FAILED
+    assert methods.judge_recovery("M", "1", 9.0, 1.0, 0.63).outcome is methods.Outcome.FAILED
     # nor one whose sigma is more than half of it: one rule for all papers, for a truth of 0 too
-    assert judge_recovery("M", "1", 1.0, 1.0, 0.49).outcome is Outcome.RECOVERED
-    assert judge_recovery("M", "1", 1.0, 1.0, 0.63).reason.startswith("sigma 63 %")
+    assert methods.judge_recovery("M", "1", 1.0, 1.0, 0.49).outcome is methods.Outcome.RECOVERED
+    assert methods.judge_recovery("M", "1", 1.0, 1.0, 0.63).reason.startswith("sigma 63 %")
     for truth, value, sigma in ((1.0, 1.0, 0.63), (0.0, 0.0, 0.1), (0.0, 0.01, 0.01)):
-        assert judge_recovery("M", "1", truth, value, sigma).outcome is Outcome.UNDETERMINED
+        assert (
+            methods.judge_recovery("M", "1", truth, value, sigma).outcome
+            is methods.Outcome.UNDETERMINED
+        )
 
 
 def test_the_truth_of_a_simulation_is_read_from_the_quotations():
     paper = read_paper("guegan-2003")
-    assert read_table(paper, "Table 3")["MRP"] == (1.5993, 1.2601)
-    assert read_quotation(paper, "65814 x 13") == (65814.0, 13.0)
+    assert methods.read_table(paper, "Table 3")["MRP"] == (1.5993, 1.2601)
+    assert methods.read_quotation(paper, "65814 x 13") == (65814.0, 13.0)
     with pytest.raises(RobotError, match="quotes no Table 9"):
-        read_table(paper, "Table 9")
+        methods.read_table(paper, "Table 9")
     with pytest.raises(RobotError, match='quotes nothing that starts with "66"'):
-        read_quotation(paper, "66")
+        methods.read_quotation(paper, "66")

@@ -17,15 +17,23 @@ NOTEBOOKS = sorted(path.stem for path in TUTORIALS.glob("*.ipynb"))
 
 TEXTS = ("text/plain", "text/html", "text/latex")
 SHOWN: dict[str, dict[str, str]] = {
-    "paper": {"leg": "theta", "derived.relations": r"\begin{align", "alike.base.rank": "23",
-              "model": "MPR"},
+    "paper": {
+        "leg": "theta",
+        "derived.relations": r"\begin{align",
+        "alike.base.rank": "23",
+        "model": "MPR",
+    },
     "csv-to-c": {"arm": "theta", "model": "relative_sigma_percent", "comparison": "repeatable"},
-    "what-is-missing": {"model": "relative_sigma_percent", "comparison": "repeatable",
-                        "found": "load_friction", 'better.table("waterfall")': "load_friction",
-                        "better.missing()": "nothing"},
+    "what-is-missing": {
+        "model": "relative_sigma_percent",
+        "comparison": "repeatable",
+        "found": "load_friction",
+        'better.table("waterfall")': "load_friction",
+        "better.missing()": "nothing",
+    },
     "urdf": {"model": "relative_sigma_percent", "exported": "friction"},
     "fleet": {"found": "viscous"},
-}  # fmt: skip
+}
 """Of each notebook: lines that end a cell, and a word in what they show."""
 
 
@@ -101,8 +109,13 @@ def _fleet(printed: str) -> None:
     assert printed.count("machine c") == printed.count("machine d") == 1
 
 
-TRUE = {"paper": _paper, "csv-to-c": _csv_to_c, "what-is-missing": _what_is_missing, "urdf": _urdf,
-        "fleet": _fleet}  # fmt: skip
+TRUE = {
+    "paper": _paper,
+    "csv-to-c": _csv_to_c,
+    "what-is-missing": _what_is_missing,
+    "urdf": _urdf,
+    "fleet": _fleet,
+}
 """The story that each notebook shows is true."""
 
 

@@ -20,13 +20,18 @@ from modeler.core.result import Result, find_presentation
 from modeler.robot.read import parse_robot_text
 from tests.notebook.session import HIDDEN, reached, session
 from tests.rotation import rotating
+from tests.texts import read_pairs
 
 ALWAYS = ("log", "model")
 NAMES = (
-    "robot", "derivation", "emitted", "compiled", "simulated", "observation", "report", "fit",
-    "better", "addition", "comparison", "diagnosis", "estimators", "modes", "contest", "free run",
-    "motion", "physical",
-)  # fmt: skip
+    *"""
+        robot derivation emitted compiled simulated observation report fit better addition
+        comparison diagnosis estimators modes contest
+    """.split(),
+    "free run",
+    "motion",
+    "physical",
+)
 EACH = [*ALWAYS, *rotating(*NAMES)]
 
 
@@ -112,8 +117,7 @@ def test_what_a_result_does_not_have_is_refused_with_what_it_has() -> None:
         made["comparison"].table("errrors")
 
 
-SHOWN = {"robot": "<table", "derivation": "$", "comparison": "<table", "diagnosis": "mu2",
-         "better": "load_friction"}  # fmt: skip
+SHOWN = read_pairs("robot <table derivation $ comparison <table diagnosis mu2 better load_friction")
 
 
 @pytest.mark.parametrize(
@@ -150,8 +154,10 @@ def test_tables_hold_the_numbers_of_the_results() -> None:
     np.testing.assert_allclose(rms, [item.rms for item in comparison.joints], rtol=1e-12)
     torques = comparison.table("torques")
     for joint in "123":
-        measured, predicted = (np.array(torques.column(f"{what} {joint}"), dtype=float)
-                               for what in ("measured", "predicted"))  # fmt: skip
+        measured, predicted = (
+            np.array(torques.column(f"{what} {joint}"), dtype=float)
+            for what in ("measured", "predicted")
+        )
         left = np.array(comparison.table("residuals").column(joint), dtype=float)
         used = np.isfinite(left)
         np.testing.assert_allclose((measured - predicted)[used], left[used])

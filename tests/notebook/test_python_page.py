@@ -42,8 +42,10 @@ def test_every_table_and_figure_stands_there() -> None:
         assert shown is not None
         there = set(shown.tables(made[name]))
         assert there <= tables and tables - there <= {"loads", "gains", "waterfall"}, name
-        drawn = {re.sub(r"\w+@\w+", "EFFECT@J", re.sub(r" \d+$", " J", f))
-                 for f in shown.figures(made[name])}  # fmt: skip
+        drawn = {
+            re.sub(r"\w+@\w+", "EFFECT@J", re.sub(r" \d+$", " J", f))
+            for f in shown.figures(made[name])
+        }
         assert drawn <= figures and figures - drawn <= {"waterfall"}, name
     with_tables = {n for n in made if (p := find_presentation(type(made[n]))) and p.tables(made[n])}
     assert with_tables <= {*told, "better", "better comparison", "report"}

@@ -28,8 +28,13 @@ def test_a_table_is_text_html_markdown_and_latex() -> None:
         "c              -   yes  x < y",
         "50 % & more",
     ]
-    for text in ("&lt;two&gt;", "<td>&lt;b&gt;</td>", "50 % &amp; more", "<td>$x &lt; y$</td>",
-                 "<td>$M_{1} + M_{2}$</td>"):  # fmt: skip
+    for text in (
+        "&lt;two&gt;",
+        "<td>&lt;b&gt;</td>",
+        "50 % &amp; more",
+        "<td>$x &lt; y$</td>",
+        "<td>$M_{1} + M_{2}$</td>",
+    ):
         assert text in TABLE.to_html()
     assert r"| a\|b_1 | 1.25 | yes | $M_{1} + M_{2}$ |" in TABLE.to_markdown()
     assert r"a\textbar{}b\_1 & 1.25 & yes & $M_{1} + M_{2}$ \\" in TABLE.to_latex()

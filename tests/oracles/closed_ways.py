@@ -39,9 +39,7 @@ def closed_near(oracle: Oracle, u: np.ndarray, rounds: int = 4) -> np.ndarray:
     return u
 
 
-def followed(
-    oracle: Oracle, home: np.ndarray, targets: np.ndarray, steps: int
-) -> tuple[np.ndarray, np.ndarray]:
+def followed(oracle, home, targets, steps):
     """Straight ways of the given variables from home, and how near singularity they came.
 
     A way ends where Newton's method goes further than the tangent does, and where the solved
@@ -97,9 +95,7 @@ def _step(oracle: Oracle, u: np.ndarray, q: np.ndarray, J: np.ndarray) -> tuple:
     return v, after, good, singular
 
 
-def reached(
-    oracle: Oracle, home: np.ndarray, count: int, seed: int, reach: float, steps: int = STEPS
-) -> np.ndarray:
+def reached(oracle, home, count, seed, reach, steps=STEPS):
     """(m, f) closed postures that random ways arrive at, far from singularities.
 
     Args:

@@ -138,9 +138,12 @@ class Oracle:
                 w + theta[1] * rate,
                 v + np.cross(w, way) + r[1] * rate,
                 dw + theta[1] * (gain + np.cross(w, rate)),
-                a + np.cross(dw, way) + np.cross(w, np.cross(w, way)) + 2 * r[1] * np.cross(w, rate)
+                a
+                + np.cross(dw, way)
+                + np.cross(w, np.cross(w, way))
+                + 2 * r[1] * np.cross(w, rate)
                 + r[1] * gain,
-            )  # fmt: skip
+            )
         return found
 
     # Loops.

@@ -97,16 +97,29 @@ class NumpyModel:
             for name, (kind, effect, j) in zip(names, kinds, strict=True)
         )
         self.spec = ModuleSpec(
-            robot="numpy_model", title="", prefix="numpy_model", format=FORMAT, symbols=(),
+            robot="numpy_model",
+            title="",
+            prefix="numpy_model",
+            format=FORMAT,
+            symbols=(),
             joints=tuple(
-                JointSpec(str(j + 1), "prismatic" if r.sigma else "revolute",
-                          "m" if r.sigma else "rad", unit[j], j not in self.passive,
-                          self.gains[j] if self.gains else None)
-                for j, r in enumerate(self.rows)),
+                JointSpec(
+                    str(j + 1),
+                    "prismatic" if r.sigma else "revolute",
+                    "m" if r.sigma else "rad",
+                    unit[j],
+                    j not in self.passive,
+                    self.gains[j] if self.gains else None,
+                )
+                for j, r in enumerate(self.rows)
+            ),
             standard=standard,
-            base=tuple(BaseSpec(names[k], names[k], "SI", kinds[k][0], tuple(range(n)), ())
-                       for k in kept),
-            unidentifiable=(), functions=())  # fmt: skip
+            base=tuple(
+                BaseSpec(names[k], names[k], "SI", kinds[k][0], tuple(range(n)), ()) for k in kept
+            ),
+            unidentifiable=(),
+            functions=(),
+        )
 
     def _text(self) -> str:
         rows = ""

@@ -121,10 +121,14 @@ class PinocchioDynamics:
                 f"q{name}": x for name, x in zip(free, q, strict=True)
             }
             relations = self.robot.relations
-            return np.array([
-                relations[j.name].evaluate(values) if j.name in relations else values[f"q{j.name}"]
-                for j in self.robot.moving_joints
-            ])  # fmt: skip
+            return np.array(
+                [
+                    relations[j.name].evaluate(values)
+                    if j.name in relations
+                    else values[f"q{j.name}"]
+                    for j in self.robot.moving_joints
+                ]
+            )
 
         shift = rows(np.zeros(len(free)))
         return np.array([rows(e) - shift for e in np.eye(len(free))]).T, shift

@@ -15,6 +15,7 @@ from modeler.diagnosis.ranking import build_gram_blocks
 from modeler.diagnosis.result import Diagnosis
 from modeler.regression.log import Log
 from modeler.robot.read import parse_robot_text
+from modeler.views import evidence
 from modeler.views.diagnosis import build_diagnosis_page
 from modeler.views.effect_evidence import (
     Evidence,
@@ -24,19 +25,12 @@ from modeler.views.effect_evidence import (
     describe_residuals,
     find_inliers,
 )
-from modeler.views.evidence import (
-    draw_evidence_picture,
-    draw_play_picture,
-    draw_torque_picture,
-    find_worst_window,
-    select_alternatives,
-    tabulate_alternatives,
-)
 from modeler.views.page import write_page
 from tests.captions import assert_all_named
 from tests.diagnose.conftest import Case, demonstration, motion, on_joint
 from tests.diagnose.test_diagnose_effects import motor_ripple, spring, stribeck
 from tests.rotation import rotating, slow_rotating
+from tests.texts import read_rows
 
 
 @cache
@@ -84,7 +78,7 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
     search = diagnosis_of(case, load_friction(case) if effect == "load_friction" else torque).search
     step = search.steps[0]
     assert step.candidate.effect.id == effect
-    picture = draw_evidence_picture(collect_evidence(search, step))
+    picture = evidence.draw_evidence_picture(collect_evidence(search, step))
     drawn = panels(picture)
     without, full = drawn["without the effect"], drawn["with it"]
     assert without.x_label == full.x_label == label
@@ -103,7 +97,7 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
     assert np.all((curve.y[at][inside] > low) & (curve.y[at][inside] < high))
     assert np.ptp(curve.y[at][inside]) > 0.3 * (high - low)  # and fills the picture
     assert_all_named(picture)
-    assert_all_named(draw_play_picture(search.end, 0))
+    assert_all_named(evidence.draw_play_picture(search.end, 0))
     if effect == "spring":  # the model imitates it, so that residuals do not show all of it
         means = series(drawn["model of the effect"], Means, "mean")
         slope, rest = np.polyfit(means.x, means.y, 1)
@@ -155,7 +149,8 @@ def test_a_spike_flattens_nothing_and_is_told(case: Case) -> None:
     assert [f.effect for f in loud.effects] == ["stribeck"]  # a spike is no push
     assert any("8.9 to 9.2 s: torques that come only once" in line for line in loud.data)
     pictures = [
-        draw_evidence_picture(collect_evidence(s, s.steps[0])) for s in (quiet.search, loud.search)
+        evidence.draw_evidence_picture(collect_evidence(s, s.steps[0]))
+        for s in (quiet.search, loud.search)
     ]
     spans = [np.ptp(panels(p)["without the effect"].y_range) for p in pictures]
     assert spans[1] < 1.5 * spans[0]
@@ -198,19 +193,16 @@ def test_what_returns_everywhere_is_not_wild() -> None:
 
 @pytest.mark.parametrize(
     ("equation", "axis"),
-    [("v*abs(v)", "v"), ("q*sign(v)", "q"), ("abs(load)*sign(v)", "load"), ("exp(-t)*v", "t"),
-     ("a*abs(a)", "a"), ("T*v", "T")],
-)  # fmt: skip
-def test_an_effect_of_a_robot_file_shows_itself_on_its_variable(
-    case: Case, equation: str, axis: str
-) -> None:
+    read_rows("v*abs(v) v; q*sign(v) q; abs(load)*sign(v) load; exp(-t)*v t; a*abs(a) a; T*v T"),
+)
+def test_an_effect_of_a_robot_file_shows_itself_on_its_variable(case, equation, axis):
     text = case.derivation.robot.text + f'\n[own_effects.brake]\ncolumns = {{Keb = "{equation}"}}\n'
     robot = parse_robot_text(text, "own")
     assert robot.own_effects[0].signature_axis == axis
 
 
 def test_the_model_after_is_nearer_where_the_model_before_was_worst(item: Evidence) -> None:
-    picture = draw_torque_picture(item)
+    picture = evidence.draw_torque_picture(item)
     above, below = (row[0] for row in picture.panels)
     assert all(isinstance(series, Curve) for series in (*above.series, *below.series))
     measured, before, after = (series.y for series in above.series)
@@ -225,7 +217,7 @@ def test_the_model_after_is_nearer_where_the_model_before_was_worst(item: Eviden
 
 
 def test_no_other_half_second_is_worse(item: Evidence) -> None:
-    log, start, end = find_worst_window(item)
+    log, start, end = evidence.find_worst_window(item)
     assert 0.3 < end - start <= 0.5
     time, square = item.without.rows.time[item.j], np.where(item.is_inlier, item.before, 0.0) ** 2
     worst = square[(time >= start) & (time <= end)].sum()
@@ -236,15 +228,17 @@ def test_no_other_half_second_is_worse(item: Evidence) -> None:
 
 def test_rivals_are_of_the_same_joint(item: Evidence) -> None:
     step = item.step
-    assert {rival.candidate.joint for rival in select_alternatives(step)} == {step.candidate.joint}
+    assert {rival.candidate.joint for rival in evidence.select_alternatives(step)} == {
+        step.candidate.joint
+    }
     other = next(
         (r for r in step.alternatives if r.candidate.joint != step.candidate.joint), None
     )  # the search has some, the page does not
     assert other is not None
-    rows = tabulate_alternatives(step).rows
+    rows = evidence.tabulate_alternatives(step).rows
     own = [
         step.candidate.effect.id,
-        *(r.candidate.effect.id for r in select_alternatives(step)[:7]),
+        *(r.candidate.effect.id for r in evidence.select_alternatives(step)[:7]),
     ]
     assert [row[0] for row in rows] == own
 
@@ -269,7 +263,7 @@ def test_a_law_is_as_sure_as_repetition_shows(hold: int) -> None:
 
 
 def test_the_band_is_drawn_and_named(item: Evidence) -> None:
-    picture = draw_evidence_picture(item)
+    picture = evidence.draw_evidence_picture(item)
     law = picture.panels[0][-1]
     bands = [series for series in law.series if isinstance(series, Band)]
     assert len(bands) == 1 and np.all((bands[0].high >= bands[0].low)[np.isfinite(bands[0].low)])
@@ -281,7 +275,7 @@ def test_no_line_is_drawn_over_rows_that_do_not_count(item: Evidence) -> None:
     """Filtered rows of joint 2 leave out its reversals: the curves break there."""
     time = item.without.rows.time[item.j]
     step = np.median(np.diff(time))
-    for row in draw_torque_picture(item).panels:
+    for row in evidence.draw_torque_picture(item).panels:
         for series in row[0].series:
             whole = np.isfinite(series.y[:-1]) & np.isfinite(series.y[1:])
             assert np.all(np.diff(series.x)[whole] <= 1.5 * step)

@@ -10,20 +10,13 @@ import numpy as np
 import pytest
 
 from modeler.estimation.model_file import IdentifiedModel, load_model
+from modeler.views import history
 from modeler.views.fit import find_correlated_pairs
-from modeler.views.history import (
-    BETTER,
-    SAME,
-    WORSE,
-    build_history_page,
-    draw_joints_picture,
-    draw_waterfall_picture,
-    format_relation,
-)
 from modeler.views.page import write_page
 from tests.captions import assert_all_named
 from tests.cli.inputs import folder_after
 from tests.cli.running import answer, complaint
+from tests.rotation import with_cases
 
 
 @pytest.fixture(scope="module")
@@ -87,18 +80,14 @@ def scara(tmp_path_factory: pytest.TempPathFactory) -> Path:
     )
 
 
-@pytest.mark.parametrize(
-    ("words", "message"),
-    [
-        ("a.json b.json", "got models only; expected a log too"),
-        ("a.json a.json other.parquet", "got this model twice"),
-        ("a.json {scara}/m.json other.parquet", "expected those of"),
-        ("a.json b.json other.parquet other.parquet", "give each row once"),
-    ],
+@with_cases(
+    "words, message",
+    ("a.json b.json", "got models only; expected a log too"),
+    ("a.json a.json other.parquet", "got this model twice"),
+    ("a.json {scara}/m.json other.parquet", "expected those of"),
+    ("a.json b.json other.parquet other.parquet", "give each row once"),
 )
-def test_what_cannot_be_set_side_by_side(
-    folder: Path, scara: Path, monkeypatch, capsys, words: str, message: str
-) -> None:
+def test_what_cannot_be_set_side_by_side(folder, scara, monkeypatch, capsys, words, message):
     monkeypatch.chdir(folder)
     assert message in complaint(capsys, "compare", *words.format(scara=scara).split())
 
@@ -126,7 +115,7 @@ def test_the_page_of_a_fit_has_values_sums_and_doubts(folder: Path, before) -> N
     for parameter in before.fit.parameters:
         assert f"{parameter.name} {parameter.value:.5g} {parameter.sigma:.2g}" in text
     for base in before.spec.base:
-        assert format_relation(base) in text
+        assert history.format_relation(base) in text
     verdict = before.fit.verdict
     assert verdict is not None and verdict.line in text
     assert f"{before.fit.condition_number:.4g}" in text
@@ -145,9 +134,9 @@ def test_a_sum_is_the_base_parameter(before) -> None:
     values |= {symbol.name: symbol.value for symbol in spec.symbols}
     summed = 0
     for base in spec.base:
-        if format_relation(base):
+        if history.format_relation(base):
             by_terms = sum(term.value * values[term.parameter] for term in base.terms)
-            assert eval(format_relation(base), {}, values) == pytest.approx(by_terms)
+            assert eval(history.format_relation(base), {}, values) == pytest.approx(by_terms)
             summed += 1
     assert summed > 5
 
@@ -171,14 +160,14 @@ def test_the_page_of_additions_has_every_joint_and_value(folder, after, tmp_path
         assert end <= 1.05 * start
     assert "as fitted + spring @3" in text
     refused = ["left out: backlash, joint 2 (the error does not fall (no joint changes))"]
-    page = write_page(tmp_path / "page.html", build_history_page(after, refused))
+    page = write_page(tmp_path / "page.html", history.build_history_page(after, refused))
     assert "backlash, joint 2: the error does not fall (no joint changes)" in words_of(page)
 
 
 def test_captions_of_waterfalls_name_their_colours(after) -> None:
     units = {joint.name: joint.effort_unit for joint in after.spec.joints}
-    assert_all_named(draw_waterfall_picture(after.history))
-    picture = draw_joints_picture(after.history, units)
+    assert_all_named(history.draw_waterfall_picture(after.history))
+    picture = history.draw_joints_picture(after.history, units)
     assert_all_named(picture)
     drawn = {p.title: p for row in picture.panels for p in row}["Joint 3"]
     values = np.concatenate([s.values for s in drawn.series])
@@ -191,16 +180,16 @@ def test_a_joint_that_got_worse_has_another_colour(after) -> None:
     first, *_, last = after.history
     joints = {"1": (0.02, 0.03), "2": (0.03, 0.02), "3": (0.02, 0.0201)}
     step = dataclasses.replace(last, joints=joints, changed_joints=("1", "2"))
-    picture = draw_joints_picture((first, step), dict.fromkeys("123", "N m"))
+    picture = history.draw_joints_picture((first, step), dict.fromkeys("123", "N m"))
     found = {
         panel.title: {own.label: own.style for own in panel.series if np.isfinite(own.values[-1])}
         for row in picture.panels
         for panel in row
     }
     assert found == {
-        "Joint 1": {"clearly higher": WORSE},
-        "Joint 2": {"clearly lower": BETTER},
-        "Joint 3": {"no clear change": SAME},
+        "Joint 1": {"clearly higher": history.WORSE},
+        "Joint 2": {"clearly lower": history.BETTER},
+        "Joint 3": {"no clear change": history.SAME},
     }
-    assert len({own.color for own in (SAME, BETTER, WORSE)}) == 3
+    assert len({own.color for own in (history.SAME, history.BETTER, history.WORSE)}) == 3
     assert_all_named(picture)

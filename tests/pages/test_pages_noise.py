@@ -17,6 +17,7 @@ from modeler.logs.mapping import LogMap, parse_map_options
 from modeler.regression.prepare import estimate_position_noise
 from modeler.views.log import build_log_page, draw_log_pictures, draw_noise_picture
 from tests.logs.writers import parquet
+from tests.rotation import with_cases
 
 SIZE = 1e-3  # rad, of white noise
 RATE = 500.0
@@ -69,8 +70,9 @@ def test_a_log_tells_the_same_with_its_robot_and_the_noise_without(noisy):
     assert bands(noisy, "log_robot") == bands(noisy, "fit")
     alone = bands(noisy, "log")
     assert alone["parallel_cutoff"] is None and alone["reasons"] == []
-    densities = [[own["density"] for own in found["noise"]]
-                 for found in (alone, bands(noisy, "fit"))]  # fmt: skip
+    densities = [
+        [own["density"] for own in found["noise"]] for found in (alone, bands(noisy, "fit"))
+    ]
     assert densities[0] == pytest.approx(densities[1], rel=1e-3)
 
 
@@ -123,16 +125,14 @@ def test_counts_of_an_encoder_stay_counts(tmp_path):
     assert "1e+02 counts above" in line and "in steps of 1 counts" in line
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "columns",
-    [
-        {"time": TIME, "tau1": SWING},
-        {"q1": SWING},
-        {"time": TIME, "q1": np.full(len(TIME), np.nan)},
-        {"time": TIME[:12], "q1": np.where(np.arange(12) < 11, np.nan, 1.0)},
-        {"time": TIME, "q1": np.zeros(len(TIME))},
-        {"time": np.zeros(len(TIME)), "q1": SWING},
-    ],
+    {"time": TIME, "tau1": SWING},
+    {"q1": SWING},
+    {"time": TIME, "q1": np.full(len(TIME), np.nan)},
+    {"time": TIME[:12], "q1": np.where(np.arange(12) < 11, np.nan, 1.0)},
+    {"time": TIME, "q1": np.zeros(len(TIME))},
+    {"time": np.zeros(len(TIME)), "q1": SWING},
     ids=["no position", "no clock", "no value", "one value", "at rest", "no time"],
 )
 def test_where_nothing_can_be_told_nothing_is_drawn(tmp_path, columns):

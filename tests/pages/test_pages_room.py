@@ -49,8 +49,8 @@ def test_a_folder_gets_an_index_and_a_file_does_not(tmp_path: Path) -> None:
     write_page(tmp_path, sheet("diagnose", held_out=True))
     write_page(tmp_path / "sub", sheet("fit"))
     assert {path.name for path in tmp_path.iterdir()} == {
-        "alone.html", "diagnosis.html", "index.html", "sub",
-    }  # fmt: skip
+        *"alone.html diagnosis.html index.html sub".split()
+    }
     assert (tmp_path / "sub" / "index.html").exists()
 
 

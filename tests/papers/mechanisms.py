@@ -52,9 +52,10 @@ class Posture(NamedTuple):
 def orthoglide_leg(at, end, leg, sign=-1.0):
     """Rows 1 to 5 of a leg whose frame 5 ends at `end`; `sign` is that of a in r13 = q13 +- a."""
     first = {
-        "1": (0, 0, 0, 0, 0), "2": (np.pi / 2, A, np.pi / 2, 0, 0),
+        "1": (0, 0, 0, 0, 0),
+        "2": (np.pi / 2, A, np.pi / 2, 0, 0),
         "3": (0, A, -np.pi / 2, 0, -np.pi / 2),
-    }[leg]  # fmt: skip
+    }[leg]
     x, y, z = {"1": end, "2": end[[1, 2, 0]] - [0, A, -A], "3": end[[2, 0, 1]] - [A, 0, -A]}[leg]
     q3 = -np.arcsin(y / D4)
     q2 = -np.arccos(x / (D4 * np.cos(q3)))
@@ -189,7 +190,9 @@ POINTS = np.random.default_rng(3).normal(0, 1, (12, 3))
 
 def parameters_of(r):
     x, y, z = r
-    return np.array([y*y + z*z, -x*y, -x*z, x*x + z*z, -y*z, x*x + y*y, x, y, z, 1.0])  # fmt: skip
+    return np.array(
+        [y * y + z * z, -x * y, -x * z, x * x + z * z, -y * z, x * x + y * y, x, y, z, 1.0]
+    )
 
 
 POINTS_AS_PARAMETERS = np.array([parameters_of(r) for r in POINTS]).T

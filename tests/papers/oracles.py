@@ -89,9 +89,10 @@ def row(paper, line):
     by_table = m.rows_2012(first, q2, q3, "3")["53"]
     tip = by_table.place + m.D6 * first.turn[:, 2]
     local = [
-        m.D4 * np.cos(q2) * np.cos(q3) + m.A, -m.D4 * np.sin(q3),
+        m.D4 * np.cos(q2) * np.cos(q3) + m.A,
+        -m.D4 * np.sin(q3),
         q1 - m.A - m.D4 * np.sin(q2) * np.cos(q3) + m.D6,
-    ]  # fmt: skip
+    ]
     return bool(np.allclose(tip, first.turn @ local))
 
 
@@ -252,8 +253,9 @@ def side_by_side(text, letters):
 def recursion(paper, line):
     """A frame on a moving one, by a joint that turns and by one that slides; speeds by steps."""
     for slides in (0, 1):
-        start = m.moving(lambda u: m.GROUND.then(u[0], u[1], u[2], u[3], u[4], u[5]),
-                         *RNG.uniform(-1, 1, (2, 6)))  # fmt: skip
+        start = m.moving(
+            lambda u: m.GROUND.then(u[0], u[1], u[2], u[3], u[4], u[5]), *RNG.uniform(-1, 1, (2, 6))
+        )
         q, qd, row = 0.4, 1.7, (0.0, 0.0, *RNG.uniform(-1, 1, 2))
         joint = q + 1j * m.STEP * qd
         end = start.then(*row, *((0.3, joint) if slides else (joint, 0.3)))
@@ -261,9 +263,16 @@ def recursion(paper, line):
         R = end.turn.real.T @ start.turn.real
         P = start.turn.real.T @ (end.place - start.place).real
         letters = {
-            "^kRk-1": R, "^k-1omegak-1": w, "^komegak-1": R @ w, "^k-1Vk-1": v, "^k-1Pk": P,
-            "barsigmak": 1 - slides, "sigmak": slides, "qdk": qd, "^kak": np.array([0, 0, 1]),
-        }  # fmt: skip
+            "^kRk-1": R,
+            "^k-1omegak-1": w,
+            "^komegak-1": R @ w,
+            "^k-1Vk-1": v,
+            "^k-1Pk": P,
+            "barsigmak": 1 - slides,
+            "sigmak": slides,
+            "qdk": qd,
+            "^kak": np.array([0, 0, 1]),
+        }
         found = side_by_side(line.quote, letters)
         if not np.allclose(found, wk if line.expected[0] == "angular" else vk):
             return False
@@ -276,10 +285,18 @@ def body(paper, line):
     xx, xy, xz, yy, yz, zz, *first, mass = m.POINTS_AS_PARAMETERS @ masses
     axes = m.about_z(0.3) @ m.about_x(0.7)
     letters = {
-        "omegak^T": w, "omegak": w, "Jk": [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], "Mk": mass,
-        "Vk^T": v, "Vk": v, "MSk^T": first, "^0g^T": g, "^0Pk": place, "^0Ak": axes,
+        "omegak^T": w,
+        "omegak": w,
+        "Jk": [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
+        "Mk": mass,
+        "Vk^T": v,
+        "Vk": v,
+        "MSk^T": first,
+        "^0g^T": g,
+        "^0Pk": place,
+        "^0Ak": axes,
         "^kSk": np.array(first) / mass,
-    }  # fmt: skip
+    }
     height = -masses @ np.array([g @ (place + axes @ r) for r in m.POINTS])
     wanted = masses @ m.point_energies(w, v) / 2 if line.expected[0] == "E" else height
     return bool(np.allclose(side_by_side(line.quote, letters), wanted))
@@ -289,8 +306,10 @@ def body(paper, line):
 
 
 JOINTS = 3
-LETTERS = {body: ("m", "t1", "t2", "t3", *(f"J{i}{j}" for i in "123" for j in "123" if i <= j))
-           for body in "abc"}  # fmt: skip
+LETTERS = {
+    body: ("m", "t1", "t2", "t3", *(f"J{i}{j}" for i in "123" for j in "123" if i <= j))
+    for body in "abc"
+}
 
 
 def wrist(seed):
@@ -371,10 +390,19 @@ def fitted(name, seed):
     p, qs = wrist(seed), np.random.default_rng(seed).uniform(-3, 3, (14, 3))
     names = table.closed.algebra.names[: table.closed.algebra.moving]
     own = [c for c in table.coefficients if c.function == name]
-    matrix = np.array([
-        [prod(trigonometry(q)[str(n)] ** e for n, e in zip(names, c.exponents, strict=False) if e)
-         for c in own] for q in qs
-    ])  # fmt: skip
+    matrix = np.array(
+        [
+            [
+                prod(
+                    trigonometry(q)[str(n)] ** e
+                    for n, e in zip(names, c.exponents, strict=False)
+                    if e
+                )
+                for c in own
+            ]
+            for q in qs
+        ]
+    )
     wanted = np.array([function(name, q, p) for q in qs])
     values = np.linalg.lstsq(matrix, wanted, rcond=None)[0]
     assert np.allclose(matrix @ values, wanted, atol=1e-7)
@@ -422,8 +450,9 @@ def vector(text, q, p, qd):
     """`-at3 qd1 a2 + ...` in n."""
     known = p | trigonometry(q) | {f"qd{k + 1}": x for k, x in enumerate(qd)}
     known |= {f"tau{k}": 1.0 + k for k in (1, 2, 3)}
-    axes = {f"{b}{k + 1}": t[:, k] for b, t in (triads(q) | {"n": np.eye(3)}).items()
-            for k in range(3)}  # fmt: skip
+    axes = {
+        f"{b}{k + 1}": t[:, k] for b, t in (triads(q) | {"n": np.eye(3)}).items() for k in range(3)
+    }
     axes |= {f"v^CM{b}": v for b, (v, _, _) in bodies(q, qd, p).items()}
     total, depth, terms = np.zeros(3), 0, [""]
     for letter in text:
@@ -468,10 +497,12 @@ def applied(paper, line):
 def indices(paper, line):
     """Every term, summed over what stands twice, has one number for each i: each i stands once."""
     return all(
-        re.findall(r"[ijk]", "".join(re.findall(r"(?:J|S|G|C|g|tau|ddotq|qd)([ijk]+)", term)))
-        .count("i") == 1
+        re.findall(
+            r"[ijk]", "".join(re.findall(r"(?:J|S|G|C|g|tau|ddotq|qd)([ijk]+)", term))
+        ).count("i")
+        == 1
         for term in re.split(r"[+=]", line.quote)
-    )  # fmt: skip
+    )
 
 
 def friction(paper, line):
@@ -513,10 +544,12 @@ def grouped_within(own, before):
     others = [found[f"{p}{before}"] for p in m.INERTIA]
     others += [found[f"{p}{own}"] for p in m.INERTIA if f"{p}{own}" in kept]
     return {
-        p for p in m.INERTIA
-        if f"{p}{own}" not in kept and np.any(abs(found[f"{p}{own}"]) > 1e-9)
+        p
+        for p in m.INERTIA
+        if f"{p}{own}" not in kept
+        and np.any(abs(found[f"{p}{own}"]) > 1e-9)
         and m.within(found[f"{p}{own}"], others)
-    }  # fmt: skip
+    }
 
 
 def eliminated():
@@ -551,7 +584,8 @@ COUNTS = {
         (210.0 - m.rank(list(m.columns("evra").values())) - len(without_effect(".*"))) / 6,
     ],
     "90 parameters instead of 210 standard inertial parameters": lambda: [
-        float(m.rank(list(m.columns("evra").values()))), float(len(m.columns("evra"))),
+        float(m.rank(list(m.columns("evra").values()))),
+        float(len(m.columns("evra"))),
     ],
     "the total number of parameters is 43": lambda: [
         float(m.rank(list(m.columns("orthoglide-2003").values())))
@@ -563,12 +597,13 @@ COUNTS = {
     "7 of these parameters": lambda: [float(len(WRIST()[2]))],
     "The 96 parameters (PG, PJ and PS)": lambda: [float(len(coefficients()))],
     "The following 18 independent equations": lambda: [float(WRIST()[1])],
-    "From these, 18 physical parameters can be identified directly. The remaining 7 parameters":
-        lambda: [float(WRIST()[1]), float(len(WRIST()[0]) - WRIST()[1])],
+    "From these, 18 physical parameters can be identified directly. The remaining 7 "
+    "parameters": lambda: [float(WRIST()[1]), float(len(WRIST()[0]) - WRIST()[1])],
     "Of these 25 parameters, we are able to identify 18 parameters, given initial estimates of the "
-    "remaining 7 parameters":
-        lambda: [float(n) for n in (len(WRIST()[0]), WRIST()[1], len(WRIST()[0]) - WRIST()[1])],
-}  # fmt: skip
+    "remaining 7 parameters": lambda: [
+        float(n) for n in (len(WRIST()[0]), WRIST()[1], len(WRIST()[0]) - WRIST()[1])
+    ],
+}
 
 
 def zero_functions():

@@ -40,8 +40,11 @@ def test_every_charge_and_every_equality_is_found_by_other_means(name):
 
 
 UNREADABLE = (ArithmeticError, LookupError, NameError, SyntaxError, TypeError, ValueError)
-FORMULAS = ("closure", "platform", "energy", "rotation", "element", "column", "recursion",
-            "body", "velocity", "applied", "friction")  # fmt: skip
+FORMULAS = tuple(
+    """
+    closure platform energy rotation element column recursion body velocity applied friction
+""".split()
+)
 
 
 @pytest.mark.parametrize("name", list_papers())

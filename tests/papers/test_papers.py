@@ -13,6 +13,7 @@ from modeler.papers.paper import PrintedLine, read_paper
 from modeler.papers.quotation import QuotationError, format_sum, read_numbers, read_sum
 from modeler.papers.readings import LineVerdict, check_line, check_paper
 from tests.papers.derived_papers import robots_of
+from tests.rotation import with_cases
 
 CLOSED = "orthoglide-2012"
 DIFFERENT = {"guegan-2003": 9, "briot-2012": 6, "houda": 11, "hanssen-2000": 19}
@@ -133,24 +134,22 @@ def test_a_sealed_quotation_may_not_be_touched():
     )
 
 
-@pytest.mark.parametrize(
-    ("check", "quote", "gives", "told"),
-    [
-        ("relation", "M11R + M12", (), "is no equation"),
-        ("relation", "M99R = M11", (), "M99R is no base parameter"),
-        ("relation", "M11R = M11 +", (), 'got "the end"; expected a name or a number'),
-        ("relation", "M11R = M11^x", (), 'got the exponent "x"'),
-        ("relation", "M11R = M11/(M12 + M13)", (), "below a fraction line"),
-        ("numbers", "7 and 8", ("1",), "2 numbers are quoted, 1 are derived"),
-        ("numbers", "7", ("count(ghosts())",), "asks for ghosts, which is not known here"),
-        ("names", "M11, 5", ("base()",), "is no list of names"),
-        ("arithmetic", "7", ("b = 2*a",), "has no number b"),
-        ("row", "11 | 0", (), "2 cells are quoted, a row has 10"),
-        ("row", "99 | 0 | 1 | 1 | 0 | 0 | 0 | 0 | 0 | q99", (), "there is no row 99"),
-        ("tied", "q99 = q11", (), "there is no joint variable q99"),
-        ("tied", "q41 = -q31, q41 = -q31", (), "q41 is given twice"),
-    ],
-)  # fmt: skip
+@with_cases(
+    "check, quote, gives, told",
+    ("relation", "M11R + M12", (), "is no equation"),
+    ("relation", "M99R = M11", (), "M99R is no base parameter"),
+    ("relation", "M11R = M11 +", (), 'got "the end"; expected a name or a number'),
+    ("relation", "M11R = M11^x", (), 'got the exponent "x"'),
+    ("relation", "M11R = M11/(M12 + M13)", (), "below a fraction line"),
+    ("numbers", "7 and 8", ("1",), "2 numbers are quoted, 1 are derived"),
+    ("numbers", "7", ("count(ghosts())",), "asks for ghosts, which is not known here"),
+    ("names", "M11, 5", ("base()",), "is no list of names"),
+    ("arithmetic", "7", ("b = 2*a",), "has no number b"),
+    ("row", "11 | 0", (), "2 cells are quoted, a row has 10"),
+    ("row", "99 | 0 | 1 | 1 | 0 | 0 | 0 | 0 | 0 | q99", (), "there is no row 99"),
+    ("tied", "q99 = q11", (), "there is no joint variable q99"),
+    ("tied", "q41 = -q31, q41 = -q31", (), "q41 is given twice"),
+)
 def test_what_cannot_be_read_is_different_and_says_why(check, quote, gives, told):
     found = one("briot-2012", robot=CLOSED, check=check, quote=quote, expected=gives)
     assert found.verdict is LineVerdict.DIFFERENT

@@ -15,8 +15,12 @@ def fourier(random, t, joints, fastest, size, slowest=0.1, falling=False):
     a = random.uniform(*size, w.shape)
     a = a / np.arange(1, 4)[:, None] if falling else a
     angle = t[:, None, None] * w + random.uniform(0.0, 6.0, w.shape)
-    return (t, (a * np.sin(angle)).sum(1), (a * w * np.cos(angle)).sum(1),
-            -(a * w**2 * np.sin(angle)).sum(1))  # fmt: skip
+    return (
+        t,
+        (a * np.sin(angle)).sum(1),
+        (a * w * np.cos(angle)).sum(1),
+        -(a * w**2 * np.sin(angle)).sum(1),
+    )
 
 
 def motion(joints, seconds=20.0, rate=200, seed=0):
@@ -65,7 +69,14 @@ def write(path, log, **more):
 def manifest_of(names, slides=()):
     """A manifest for a log of which only the columns are known."""
     joints = tuple(
-        JointSpec(n, "prismatic" if n in slides else "revolute", "m" if n in slides else "rad",
-                  "N m", True, 1.0) for n in names
-    )  # fmt: skip
+        JointSpec(
+            n,
+            "prismatic" if n in slides else "revolute",
+            "m" if n in slides else "rad",
+            "N m",
+            True,
+            1.0,
+        )
+        for n in names
+    )
     return dataclasses.replace(rotor().spec, joints=joints)

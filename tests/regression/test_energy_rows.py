@@ -13,7 +13,7 @@ from modeler.regression.observe import observe
 from tests.modules import compiled
 from tests.oracles.numpy_model import planar_arm
 from tests.regression.motions import exact_log, some_beta
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 SWING = {"sr400-tree": 0.4, "five-bar": 0.15, "wrist": 0.8, "two-link": 1.0}
 BROAD = Processing(derivatives="log", position_cutoff=0.0, parallel_cutoff=10.0)
@@ -136,14 +136,12 @@ def test_an_empty_channel_or_a_robot_that_stands_leaves_no_window(arm):
         build_energy_rows(smooth, observe(smooth, [still]))
 
 
-@pytest.mark.parametrize(
-    ("window", "told"),
-    [
-        (60.0, r"run: --window of 60 s is longer than the longest motion without a gap, 9.995 s"),
-        (0.005, r"run: --window of 0.005 s; expected two samples or more, 0.01 s"),
-        (-1.0, r"--window of -1 s; expected two samples"),
-        (float("nan"), r"--window of nan s; expected two samples"),
-    ],
+@with_cases(
+    "window, told",
+    (60.0, r"run: --window of 60 s is longer than the longest motion without a gap, 9.995 s"),
+    (0.005, r"run: --window of 0.005 s; expected two samples or more, 0.01 s"),
+    (-1.0, r"--window of -1 s; expected two samples"),
+    (float("nan"), r"--window of nan s; expected two samples"),
 )
 def test_windows_that_cannot_be(arm, window, told):
     model, _, log = arm

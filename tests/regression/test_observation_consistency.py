@@ -13,7 +13,7 @@ from modeler.regression.observe import observe
 from modeler.regression.read import read_log
 from tests.measured_sets.sets import DATA
 from tests.oracles.numpy_model import NumpyModel, Row, planar_arm
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 measured = pytest.mark.skipif(not DATA.is_dir(), reason=f"NOT CHECKED: no measured logs in {DATA}")
 
@@ -23,8 +23,12 @@ def sines(rate=100, seconds=20.0):
     t = np.arange(int(rate * seconds)) / rate
     w, a = 2 * np.pi * np.array([[0.3, 0.45], [0.8, 0.7]]), np.array([[1.0, 0.7], [0.2, 0.3]])
     angle = t[:, None, None] * w + np.array([[0.0, 1.0], [2.0, 0.5]])
-    return (t, (a * np.sin(angle)).sum(1), (a * w * np.cos(angle)).sum(1),
-            -(a * w**2 * np.sin(angle)).sum(1))  # fmt: skip
+    return (
+        t,
+        (a * np.sin(angle)).sum(1),
+        (a * w * np.cos(angle)).sum(1),
+        -(a * w**2 * np.sin(angle)).sum(1),
+    )
 
 
 def log_of(t, q, qd, qdd=None, **more):
@@ -51,8 +55,9 @@ def switched(rate=100):
 def noisy(columns, q=0.0, qd=0.0, qdd=0.0):
     random = np.random.default_rng(4)
     t, *values = columns
-    return t, *(v + s * random.normal(size=v.shape)
-                for v, s in zip(values, (q, qd, qdd), strict=True))  # fmt: skip
+    return t, *(
+        v + s * random.normal(size=v.shape) for v, s in zip(values, (q, qd, qdd), strict=True)
+    )
 
 
 def rounded(columns, q=1e-9, qd=1e-9, qdd=1e-9):
@@ -81,10 +86,11 @@ HONEST = {
     "rounded": rounded(sines(), 1e-4, 1e-4, 1e-2),
     "coarse": rounded(sines(), 5e-3, 2e-2, 0.2),
     "switching, rounded": rounded(switched(), 1e-3, 1e-3, 0.1),
-    "noise at rest": noisy(tuple(v if k == 0 else 0 * v for k, v in enumerate(sines())),
-                           1e-4, 1e-3, 1e-2),
+    "noise at rest": noisy(
+        tuple(v if k == 0 else 0 * v for k, v in enumerate(sines())), 1e-4, 1e-3, 1e-2
+    ),
     "jitter": jittered(sines()),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("cutoff", [5.0, *rotating(0.0, 20.0)])
@@ -140,8 +146,14 @@ def test_contradicted_samples_reach_no_row_of_any_joint():
     text = "\n".join(seen.report.format_lines())
     report = seen.report.logs[0]
     assert 40 <= report.contradicted < 100
-    for words in (f"{report.contradicted} samples with impossible derivatives", "qdd2: ",
-                  "of qd2", "are not used: over a window", "8 robust", "25 %"):  # fmt: skip
+    for words in (
+        f"{report.contradicted} samples with impossible derivatives",
+        "qdd2: ",
+        "of qd2",
+        "are not used: over a window",
+        "8 robust",
+        "25 %",
+    ):
         assert words in text
     kept = observe(model, [log], Processing(keep_contradicted=True))
     assert np.max(np.abs(kept.W @ beta - kept.y)) > 1.0
@@ -201,15 +213,20 @@ def first(factor):
 WRONG = {
     "degrees": (changed("qd", first(180 / np.pi)), "qd1 .* it is 57.3 times that: .*degrees"),
     "sign": (changed("qdd", first(-1.0)), r"qdd1 .* of qd1; it is -1 times that: is its sign"),
-    "clock": (changed("qd", lambda v: 20.0 * v), "the logged speeds of all joints are 20 times .*"
-              "the clock seems to be wrong by that factor, and the rows to come at"),
+    "clock": (
+        changed("qd", lambda v: 20.0 * v),
+        "the logged speeds of all joints are 20 times .*"
+        "the clock seems to be wrong by that factor, and the rows to come at",
+    ),
     "exchanged": (changed("qdd", lambda v: v[:, ::-1]), "qdd1 .*; it is that of qd2: are columns"),
     "unplugged": (changed("qd", first(0.0)), "qd1 .*; it follows no q;"),
     "position in degrees": (changed("qd", first(np.pi / 180)), "qd1 .* position in degrees"),
     "motor side": (changed("qd", first(32.0)), "qd1 .* 32 times that: .* motor's side of the gear"),
-    "noise": (changed("qd", lambda v: np.random.default_rng(1).normal(size=v.shape)),
-              "qd1 .*; it follows no q;"),
-}  # fmt: skip
+    "noise": (
+        changed("qd", lambda v: np.random.default_rng(1).normal(size=v.shape)),
+        "qd1 .*; it follows no q;",
+    ),
+}
 
 
 @pytest.mark.parametrize("case", [*[*WRONG][:5], *rotating(*[*WRONG][5:])])
@@ -250,9 +267,8 @@ def test_the_transients_at_both_ends_of_measured_runs(number):
 
 @pytest.mark.measured
 @measured
-@pytest.mark.parametrize(
-    "name",
-    ["02_19_14harm50sec", *rotating("01_17-ptp_10_points", "01_22-joint_1", "01_22-joint_5")],
+@with_cases(
+    "name", "02_19_14harm50sec", *rotating("01_17-ptp_10_points", "01_22-joint_1", "01_22-joint_5")
 )
 def test_rounded_measured_velocities_are_believed(name):
     rows = [Row(), Row(1.0), Row(d=1.0), Row(d=1.0), Row(1.0), Row(1.0)]

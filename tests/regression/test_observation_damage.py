@@ -18,7 +18,7 @@ from modeler.regression.read import read_log
 from modeler.regression.report import describe_damages
 from tests.oracles.numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from tests.regression.motions import fourier, manifest_of, noisy_torque, root_mean_square
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 ARMS = {
     "slider": slider(),
@@ -107,9 +107,15 @@ def clipped(random, log, j, k, size):
 
 
 DEFECTS = {
-    "zero": leap, "spike": spike, "turn": turn, "wrap": wrap, "glitch": glitch, "frozen": frozen,
-    "stuck": stuck, "clipped": clipped,
-}  # fmt: skip
+    "zero": leap,
+    "spike": spike,
+    "turn": turn,
+    "wrap": wrap,
+    "glitch": glitch,
+    "frozen": frozen,
+    "stuck": stuck,
+    "clipped": clipped,
+}
 NAMED = {"turn": {"wrap"}, "stuck": {"frozen"}, "glitch": {"spike"}, "zero": {"zero", "lost"}}
 
 
@@ -200,15 +206,21 @@ def clean_observation():
 
 
 LINES = {
-    "spike": (r"q2: jumps by 0\.[45]\d* rad and back, at 3 s; 3 samples \(0\.05 % of the rows\) "
-              r"not used, held-out error x 0\.\d\d; check the sensor"),
-    "zero": (r"q2: jumps by 0\.5 rad at 3 s and goes on from there; joined to the longest part, "
-             r"held-out error x 0\."),
+    "spike": (
+        r"q2: jumps by 0\.[45]\d* rad and back, at 3 s; 3 samples \(0\.05 % of the rows\) "
+        r"not used, held-out error x 0\.\d\d; check the sensor"
+    ),
+    "zero": (
+        r"q2: jumps by 0\.5 rad at 3 s and goes on from there; joined to the longest part, "
+        r"held-out error x 0\."
+    ),
     "wrap": r"q2: wraps by 2 pi rad, .* first at [\d.]+ s; unwrapped",
-    "glitch": (r"tau2: spike of (49|50)[\d.]* N m, at 3 s, that no other joint shows; 1 sample "
-               r"\(0\.0167 % of the rows\) not used, held-out error x 0\."),
+    "glitch": (
+        r"tau2: spike of (49|50)[\d.]* N m, at 3 s, that no other joint shows; 1 sample "
+        r"\(0\.0167 % of the rows\) not used, held-out error x 0\."
+    ),
     "lost": r"q[12]: jumps along its motion by .*, at 3 s; no filter runs across, held-out error",
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("defect", ["zero", *rotating("spike", "lost", "wrap", "glitch")])
@@ -262,11 +274,12 @@ def test_spikes_of_logged_velocities_are_left_out():
 
 
 @pytest.mark.measured
-@pytest.mark.parametrize(
+@with_cases(
     "folder",
-    ["panda", "tx40",
-     *rotating("emps", "odrive_cogging", "ur10e", "dualarm7", "dvrk_psm", "kinova_gen3")],
-)  # fmt: skip
+    "panda",
+    "tx40",
+    *rotating("emps", "odrive_cogging", "ur10e", "dualarm7", "dvrk_psm", "kinova_gen3"),
+)
 def test_nothing_is_found_in_measured_logs(measured_folder, folder):
     """Each was looked at: that of panda repeats rows, none has another defect.
 

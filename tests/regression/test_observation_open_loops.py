@@ -54,9 +54,13 @@ def test_the_fit_does_without_the_samples_that_cannot_close():
     log, open_ = log_of(0.95)
     assert 5 < open_.sum() < 40
     as_logged = Processing(
-        parallel_cutoff=0.0, decimation=1, low_speed=0.0,
-        keep_saturated=True, keep_contradicted=True, keep_damaged=True,
-    )  # fmt: skip
+        parallel_cutoff=0.0,
+        decimation=1,
+        low_speed=0.0,
+        keep_saturated=True,
+        keep_contradicted=True,
+        keep_damaged=True,
+    )
     seen = observe(model, [log], as_logged)
     assert not seen.used[open_].any()
     assert seen.used[~open_].all()

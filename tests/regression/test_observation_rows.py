@@ -14,7 +14,7 @@ from modeler.regression.observe import observe
 from modeler.regression.segments import find_shafts
 from tests.oracles.numpy_model import NumpyModel, Row, planar_arm, rotor, slider
 from tests.regression.motions import exact_log, motion, some_beta
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 
 def row_filter(whole, step, cutoff, every):
@@ -228,13 +228,11 @@ def test_the_cause_of_no_rows_is_named():
         observe(arm, [slow], dataclasses.replace(fitted, position_cutoff=0.0))
 
 
-@pytest.mark.parametrize(
-    ("chosen", "told"),
-    [
-        ({"parallel_cutoff": 1e-6}, r"--parallel-cutoff\) of 1e-06 Hz.* 20 s; expected more than"),
-        ({"position_cutoff": 1e-300}, r"--cutoff\) of 1e-300 Hz.* 20 s; expected more than 0.05"),
-        ({"decimation": 10**21}, r"--decimate\) from 4000 samples .* expected at most 2000"),
-    ],
+@with_cases(
+    "chosen, told",
+    ({"parallel_cutoff": 1e-6}, r"--parallel-cutoff\) of 1e-06 Hz.* 20 s; expected more than"),
+    ({"position_cutoff": 1e-300}, r"--cutoff\) of 1e-300 Hz.* 20 s; expected more than 0.05"),
+    ({"decimation": 10**21}, r"--decimate\) from 4000 samples .* expected at most 2000"),
 )
 def test_a_filter_longer_than_the_log_is_refused_before_work(chosen, told):
     model = planar_arm()

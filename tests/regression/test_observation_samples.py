@@ -9,16 +9,11 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.estimation.identify import identify
 from modeler.numerics.filters import apply_zero_phase_lowpass
+from modeler.regression import prepare
 from modeler.regression.log import Log, find_saturated, split_log
 from modeler.regression.motion import ChosenProcessing, Processing, build_segment, read_processing
 from modeler.regression.motion_noise import estimate_motion_noise
 from modeler.regression.observe import observe
-from modeler.regression.prepare import (
-    choose_cutoffs,
-    compute_spectra,
-    estimate_joint_bands,
-    find_ringing_joints,
-)
 from tests.fleet.machines import compiled, motion, parameters
 from tests.rotation import rotating
 
@@ -163,7 +158,7 @@ def noise_in(*pieces):
         for name in "1234567"[: pieces[0].q.shape[1]]
     ]
     return estimate_motion_noise(
-        joints, pieces, estimate_joint_bands(pieces, compute_spectra(pieces))
+        joints, pieces, prepare.estimate_joint_bands(pieces, prepare.compute_spectra(pieces))
     )
 
 
@@ -172,13 +167,15 @@ def band_of(piece):
 
 
 def cutoffs_of(processing, *pieces):
-    return choose_cutoffs(processing, pieces, noise_in(*pieces))
+    return prepare.choose_cutoffs(processing, pieces, noise_in(*pieces))
 
 
 def rings_of(log):
     """Joints of a log that ring."""
     pieces, _ = split_log(log, 0, False)
-    return find_ringing_joints(compute_spectra(pieces), [0.0] * len(log.joints), pieces)
+    return prepare.find_ringing_joints(
+        prepare.compute_spectra(pieces), [0.0] * len(log.joints), pieces
+    )
 
 
 def ringing_log(share, hertz, of=0.3):
@@ -317,9 +314,16 @@ def test_a_motion_with_slow_and_fast_parts_is_motion():
 
 def test_processing_survives_json_and_refuses_nonsense():
     full = ChosenProcessing(
-        30.0, 5.0, 4, "log", 0.01, {"1": 0.2, "5+6": float("inf")}, True, 0.1,
+        30.0,
+        5.0,
+        4,
+        "log",
+        0.01,
+        {"1": 0.2, "5+6": float("inf")},
+        True,
+        0.1,
         automatic_cutoffs=("parallel_cutoff",),
-    )  # fmt: skip
+    )
     assert read_processing(full.to_json()) == full
     assert read_processing(Processing().to_json()) == Processing()
     for bad, words in (

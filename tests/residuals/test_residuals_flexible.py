@@ -10,6 +10,7 @@ from modeler.numerics.splines import (
     fit_nonparametric_baseline,
     generate_function_sets,
 )
+from tests.rotation import with_cases
 
 STEP, ROWS, JOINTS = 1.0 / 80.0, 1600, 7
 
@@ -56,13 +57,14 @@ def test_noise_of_any_colour_is_not_predicted(memory: float) -> None:
         assert max(each.share for each in found) < 0.05
 
 
-@pytest.mark.parametrize("function", [
+@with_cases(
+    "function",
     lambda m: np.sign(m.v[:, 0]) * np.exp(-np.abs(m.v[:, 0]) / 0.3),
     lambda m: np.abs(m.load[:, 0]) * np.sign(m.v[:, 0]),
     lambda m: np.abs(m.torque[:, 0]),
     lambda m: np.tanh(3.0 * np.sin(4.0 * m.q[:, 1])),
     lambda m: m.load[:, 3],
-])  # fmt: skip
+)
 def test_functions_of_what_was_measured_are_predicted(function) -> None:
     """Half of the variance; every row by fits that did not see it."""
     m = measured(1)

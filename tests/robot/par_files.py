@@ -3,15 +3,15 @@
 from collections.abc import Mapping
 
 from modeler.robot.robot import Robot
+from tests.texts import read_pairs, read_rows
 
 INERTIA = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 # A boom on the base, moved by a cylinder: base eye at a, boom eye at c. Links 1 boom, 2 cylinder,
 # 3 rod; cut joint 4 at the boom eye, its second frame 5 on the boom.
-BOOM = {
-    "Ant": "0,0,2,3,1", "Sigma": "0,0,1,0,2", "B": "0,0,0,0,0", "d": "0,a,0,0,c",
-    "R": "0,0,r3,0,0", "Alpha": "Pi/2,Pi/2,-Pi/2,Pi/2,0", "gamma": "0,0,0,0,gam5",
-    "Theta": "t1,t2,0,t4,0", "Mu": "0,0,1,0,0",
-}  # fmt: skip
+BOOM = read_pairs("""
+    Ant 0,0,2,3,1 Sigma 0,0,1,0,2 B 0,0,0,0,0 d 0,a,0,0,c R 0,0,r3,0,0 Alpha Pi/2,Pi/2,-Pi/2,Pi/2,0
+    gamma 0,0,0,0,gam5 Theta t1,t2,0,t4,0 Mu 0,0,1,0,0
+""")
 _HEAD = """\
 (*****************************)
 (*   Parameters of a robot   *)
@@ -57,8 +57,7 @@ def par_of(robot: Robot, letters: bool) -> str:
     columns: dict[str, list[str]] = {}
     for joint in robot.joints:
         number = joint.name
-        for key, column in (("B", "b"), ("d", "d"), ("R", "r"), ("gamma", "gamma"),
-                            ("Alpha", "alpha"), ("Theta", "theta")):  # fmt: skip
+        for key, column in read_rows("B b; d d; R r; gamma gamma; Alpha alpha; Theta theta"):
             text = cell(
                 getattr(joint, column), joint.variable if joint.is_moving else None, f"t{number}"
             )

@@ -14,6 +14,7 @@ from tests.robot.public_robots import public_urdf
 from tests.robot.spoilt_files import check_spoilt
 from tests.robot.test_urdf import INERTIA
 from tests.robot.texts import ARM_URDF as ARM, edited
+from tests.rotation import with_cases
 
 ELBOW = '<parent link="upper"/><child link="fore"/>'
 BROKEN = [
@@ -36,10 +37,14 @@ BROKEN = [
     ("inertia", 'iyz="0.0005"', "", 'link "upper" .*: iyz is missing; write iyz="0.01"'),
     ("two inertials", "</inertial>", "</inertial><inertial/>", "a second <inertial>"),
     ("mimic itself", 'mimic joint="finger"', 'mimic joint="other"', "follows itself by"),
-    ("xacro", '<mass value="0.5"/>', '<mass value="${m}"/>',
-     r"<mass> is of xacro, not of URDF; expand it first: xacro \S*arm.urdf > \S*_expanded.urdf"),
+    (
+        "xacro",
+        '<mass value="0.5"/>',
+        '<mass value="${m}"/>',
+        r"<mass> is of xacro, not of URDF; expand it first: xacro \S*arm.urdf > \S*_expanded.urdf",
+    ),
     ("macro", "</robot>", "<xacro:gripper/></robot>", "<xacro:gripper> is of xacro"),
-]  # fmt: skip
+]
 
 
 def message_of(text: bytes | str, path: Path) -> str:
@@ -62,14 +67,12 @@ def test_mistakes_are_told_with_their_place(old: str, new: str, expected: str, t
     assert re.search(r": line \d+: ", told), told
 
 
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        ("<sdf version='1.7'><model name='a'/></sdf>", "SDF"),
-        ("<html><body/></html>", "URDF"),
-        ("<robot name='a'><!-- <link name='b'/> --></robot>", "line 1: <robot> has no link"),
-        ('<robot xmlns:xacro="x"><xacro:include filename="a"/></robot>', "> .*/arm.urdf$"),
-    ],
+@with_cases(
+    "text, told",
+    ("<sdf version='1.7'><model name='a'/></sdf>", "SDF"),
+    ("<html><body/></html>", "URDF"),
+    ("<robot name='a'><!-- <link name='b'/> --></robot>", "line 1: <robot> has no link"),
+    ('<robot xmlns:xacro="x"><xacro:include filename="a"/></robot>', "> .*/arm.urdf$"),
 )
 def test_other_formats_are_named(text: str, told: str, tmp_path: Path):
     path = tmp_path / ("arm.urdf.xacro" if "xacro" in text else "arm.urdf")
@@ -123,8 +126,11 @@ def test_bombs_are_refused_in_bounded_memory(tmp_path: Path):
         path.write_bytes(made())
     done = subprocess.run(
         [sys.executable, "-c", CHILD, str(2**30), *map(str, paths)],
-        capture_output=True, text=True, timeout=60, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
     for path in paths:
         path.unlink()
     assert done.returncode == 0, done.stderr[-2000:]

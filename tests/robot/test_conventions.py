@@ -12,6 +12,7 @@ from modeler.derivation.numeric_rank import evaluate_regressor
 from modeler.robot.read import parse_robot_text, read_robot
 from tests.elementary_motions import frames, shift, turn
 from tests.robot.texts import check_mistake
+from tests.rotation import with_cases
 
 pin = pytest.importorskip("pinocchio", reason="Pinocchio (PyPI: pin) is not installed")
 
@@ -309,13 +310,11 @@ def test_a_table_of_another_convention_is_told_with_the_line_to_write(mdh, told)
     check_mistake(HEAD + "[mdh]\n", "[mdh]\n", f"[mdh]\n{mdh}\n", f"[mdh] .. {told}")
 
 
-@pytest.mark.parametrize(
-    ("key", "more", "head"),
-    [
-        ("loops", "[loops]\nrows = []", ""),
-        ("platform", '[platform]\nname = "P"\nmotion = "planar"', ""),
-        ("legs", "", 'legs = ["1"]\n'),
-    ],
+@with_cases(
+    "key, more, head",
+    ("loops", "[loops]\nrows = []", ""),
+    ("platform", '[platform]\nname = "P"\nmotion = "planar"', ""),
+    ("legs", "", 'legs = ["1"]\n'),
 )
 def test_a_classical_table_is_of_a_serial_robot(key, more, head):
     assert read('convention = "classical"\n' + FLAT).convention == "classical"
@@ -354,8 +353,11 @@ def test_the_table_is_shown_and_kept_in_its_letters(convention, tmp_path):
 
     lengths = ("d", "r") if convention == "khalil" else ("a", "d")
     columns = ["j", "sigma", "alpha", lengths[0], "theta", lengths[1]]
-    rows = [["1", 0, "pi/2", 0, "q1", 0.5], ["2", 1, 0.4, 0.31, 0, "q2 - 0.1"],
-            ["3", 0, 0, 0.25, "-q3 + pi/4", 0]]  # fmt: skip
+    rows = [
+        ["1", 0, "pi/2", 0, "q1", 0.5],
+        ["2", 1, 0.4, 0.31, 0, "q2 - 0.1"],
+        ["3", 0, 0, 0.25, "-q3 + pi/4", 0],
+    ]
     robot = parse_robot_text(file(convention, columns, rows), "arm")
     told = _tabulate_dh_rows(robot)
     head = [name for name, _ in told.columns]
@@ -375,15 +377,19 @@ def test_the_table_is_shown_and_kept_in_its_letters(convention, tmp_path):
 # Angles.
 
 
-@pytest.mark.parametrize(
-    ("written", "radians"),
-    [
-        ("90 deg", math.pi / 2), ("-90deg", -math.pi / 2), ("37.5°", math.radians(37.5)),
-        ("pi/2 - 30 deg", math.pi / 3), ("(10 + 20) deg", math.pi / 6), ("1e1 deg", math.pi / 18),
-        ("\u221230\u00b0", -math.pi / 6), ("2\u00b7\u03c0/3", 2 * math.pi / 3),
-        ("2*A2 deg", math.radians(0.8)), (".5 deg", math.radians(0.5)),
-    ],
-)  # fmt: skip
+@with_cases(
+    "written, radians",
+    ("90 deg", math.pi / 2),
+    ("-90deg", -math.pi / 2),
+    ("37.5°", math.radians(37.5)),
+    ("pi/2 - 30 deg", math.pi / 3),
+    ("(10 + 20) deg", math.pi / 6),
+    ("1e1 deg", math.pi / 18),
+    ("\u221230\u00b0", -math.pi / 6),
+    ("2\u00b7\u03c0/3", 2 * math.pi / 3),
+    ("2*A2 deg", math.radians(0.8)),
+    (".5 deg", math.radians(0.5)),
+)
 def test_degrees_stand_wherever_angles_do(written, radians):
     rows = f'rows = [["1", "{written}", "q1 - ({written})"]]'
     more = (
@@ -406,19 +412,26 @@ def test_what_is_no_degree_is_told(written):
         read(f'columns = ["j", "alpha", "theta"]\nrows = [["1", "{written}", "q1"]]')
 
 
-@pytest.mark.parametrize(
-    ("written", "text", "told"),
-    [
-        ("1.5708", "pi/2", "1.5708 is pi/2"), ("-1.57", "-pi/2", "-1.57 is -pi/2"),
-        ('"q1 - 1.5708"', "q1 - pi/2", "1.5708 is pi/2"), ('"3.1416/2"', "pi/2", "3.1416 is pi"),
-        ('"4.7124 - q1"', "3*pi/2 - q1", "4.7124 is 3*pi/2"), ('"AL"', "AL", ""),
-        ('"A2 + 3.1416"', "A2 + pi", "3.1416 is pi"), ("1.5608", "1.5608", ""), ("1.5", "1.5", ""),
-        ("1.5707963265", "pi/2", ""), ('"2*0.7853981633974483"', "pi/2", ""), ("1e-17", "0", ""),
-        ('"0.25*pi"', "0.25*pi", ""), ('"q1 + 1.5707963267948966"', "q1 + pi/2", ""),
-        ('"1.5707963267948966 - q1"', "-q1 + pi/2", ""), ('"q1 + 1e-12"', "q1", ""),
-        ('"-q1 - 3.141592653589793"', "-q1 - pi", ""),
-    ],
-)  # fmt: skip
+@with_cases(
+    "written, text, told",
+    ("1.5708", "pi/2", "1.5708 is pi/2"),
+    ("-1.57", "-pi/2", "-1.57 is -pi/2"),
+    ('"q1 - 1.5708"', "q1 - pi/2", "1.5708 is pi/2"),
+    ('"3.1416/2"', "pi/2", "3.1416 is pi"),
+    ('"4.7124 - q1"', "3*pi/2 - q1", "4.7124 is 3*pi/2"),
+    ('"AL"', "AL", ""),
+    ('"A2 + 3.1416"', "A2 + pi", "3.1416 is pi"),
+    ("1.5608", "1.5608", ""),
+    ("1.5", "1.5", ""),
+    ("1.5707963265", "pi/2", ""),
+    ('"2*0.7853981633974483"', "pi/2", ""),
+    ("1e-17", "0", ""),
+    ('"0.25*pi"', "0.25*pi", ""),
+    ('"q1 + 1.5707963267948966"', "q1 + pi/2", ""),
+    ('"1.5707963267948966 - q1"', "-q1 + pi/2", ""),
+    ('"q1 + 1e-12"', "q1", ""),
+    ('"-q1 - 3.141592653589793"', "-q1 - pi", ""),
+)
 def test_a_rounded_angle_is_exact_and_told(written, text, told):
     """But for one that is declared, as a measured one is; what is exact already needs no word."""
     moves = "q1" in written
@@ -439,8 +452,10 @@ def test_a_rounded_angle_of_a_relation_is_exact_too():
 def test_degrees_of_effects_and_of_words_on_the_command_line():
     from modeler.api.motion_bounds import parse_assignments
 
-    robot = read('columns = ["j", "theta"]\nrows = [["1", "q1"]]',
-                 '[effects]\nspring = [{joint = "1", q0 = "30 deg", h = 0}]')  # fmt: skip
+    robot = read(
+        'columns = ["j", "theta"]\nrows = [["1", "q1"]]',
+        '[effects]\nspring = [{joint = "1", q0 = "30 deg", h = 0}]',
+    )
     assert robot.effects[0].stated_instances[0].nonlinear_parameters["q0"] == pytest.approx(
         math.pi / 6
     )

@@ -93,7 +93,8 @@ LOOP = (
     '<link2 link="{root}"/>'
 )
 TIES = (
-    LOOP % "revolute" + '<axis xyz="0 1 0"/></loop>', LOOP % "ball" + "</loop>",
+    LOOP % "revolute" + '<axis xyz="0 1 0"/></loop>',
+    LOOP % "ball" + "</loop>",
     '<loop_joint name="x" type="spherical"><link1 link="{child}"/><link2 link="{root}"/>'
     "</loop_joint>",
     '<constraint name="x" type="fixed"><parent link="{root}"/><child link="{child}"/></constraint>',
@@ -105,7 +106,8 @@ TIES = (
     "</gazebo>",
     '<coupling name="x"><predecessor link="{root}"/><successor link="{child}"/><ratio value="2"/>'
     "</coupling>",
-    '<joint_constraint name="x"/>', '<drake:linear_bushing_rpy xmlns:drake="d" name="x"/>',
+    '<joint_constraint name="x"/>',
+    '<drake:linear_bushing_rpy xmlns:drake="d" name="x"/>',
     '<gazebo><plugin filename="libmimic_joint_plugin.so"><joint>{first}</joint><mimicJoint>{joint}'
     "</mimicJoint><multiplier>0.3</multiplier></plugin></gazebo>",
     '<gazebo><plugin filename="libspring.so"/></gazebo>',
@@ -120,20 +122,24 @@ TIES = (
     "</motorInertia><mechanicalReduction>30</mechanicalReduction></actuator></transmission>",
     '<transmission name="x"><joint name="{joint}"/><joint name="{first}"/><actuator name="m"/>'
     '<actuator name="n"/></transmission>',
-    '<gravity value="0 0 -1.62"/>', '<force name="x"/>',
+    '<gravity value="0 0 -1.62"/>',
+    '<force name="x"/>',
     '<mujoco><option gravity="0 0 0"/></mujoco>',
-)  # fmt: skip
+)
 """What is put behind the last link."""
 INSIDE = (
-    '<drake:mimic xmlns:drake="d" joint="{first}" multiplier="0.5"/>', '<stiffness value="3"/>',
+    '<drake:mimic xmlns:drake="d" joint="{first}" multiplier="0.5"/>',
+    '<stiffness value="3"/>',
     '<limit lower="-0.31" upper="0.29" velocity="1" effort="1" acceleration="0.7"/>',
     '<limit lower="-0.31" upper="0.29" velocity="1" effort="1" jerk="9"/>',
-    '<dynamics damping="0.123" friction="0.0456"/>', '<dynamics spring_stiffness="3"/>',
+    '<dynamics damping="0.123" friction="0.0456"/>',
+    '<dynamics spring_stiffness="3"/>',
     '<dynamics gear="3"/>',
     '<safety_controller soft_lower_limit="-0.01" soft_upper_limit="0.011" k_velocity="1"/>',
-    '<origin quat_xyzw="0.1 0.2 0.3 0.9"/>', '<axis xyz="0.6 0 0.8"/>',
+    '<origin quat_xyzw="0.1 0.2 0.3 0.9"/>',
+    '<axis xyz="0.6 0 0.8"/>',
     '<axis xyz="0 0 1" frame="x"/>',
-)  # fmt: skip
+)
 """What is put into a joint in place of such an element, or beside it."""
 CHANGES: dict[str, Callable[[str], str]] = {
     r'<mass\s+value="([^"]*)"': lambda text: f"{1.37 * float(text) + 0.01:.6g}",
@@ -158,8 +164,12 @@ def mutants(text: str, rng: np.random.Generator) -> list[str]:
     name, leader = (re.search(r'<joint\b[^>]*\bname\s*=\s*"([^"]*)"', j) for j in (one, first))
     child = re.search(r'<child\s+link\s*=\s*"([^"]*)"', one)
     assert name and leader and child
-    names = {"joint": name[1], "first": leader[1], "child": child[1],
-             "root": read_urdf_tree(text.encode(), "x.urdf").root}  # fmt: skip
+    names = {
+        "joint": name[1],
+        "first": leader[1],
+        "child": child[1],
+        "root": read_urdf_tree(text.encode(), "x.urdf").root,
+    }
     changed = [text.replace("</robot>", tie.format(**names) + "</robot>") for tie in TIES]
     for more in INSIDE:
         tag = re.match(r"<([\w:]+)", more)
@@ -168,8 +178,10 @@ def mutants(text: str, rng: np.random.Generator) -> list[str]:
             continue
         bare = re.sub(rf"<{tag[1]}\b[^>]*?(/>|>.*?</{tag[1]}>)", "", one, flags=re.DOTALL)
         more = more.format(**names)
-        for joint in (bare.replace("</joint>", f"{more}</joint>"),
-                      one.replace("</joint>", f"{more * 2}</joint>")):  # fmt: skip
+        for joint in (
+            bare.replace("</joint>", f"{more}</joint>"),
+            one.replace("</joint>", f"{more * 2}</joint>"),
+        ):
             changed.append(text.replace(one, joint, 1))
     named = rf'<link\s+name\s*=\s*"{re.escape(child[1])}"[^>]*>.*?</link>'
     link = re.search(named, text, re.DOTALL)
@@ -206,9 +218,7 @@ def drawn_urdfs(count: int, joints: int = 25) -> list[Path]:
 
 
 @pytest.mark.parametrize(("files", "each"), [(5, 4), pytest.param(60, 60, marks=pytest.mark.slow)])
-def test_no_mutant_of_a_public_urdf_is_read_as_the_file_itself(
-    files: int, each: int, tmp_path: Path
-) -> None:
+def test_no_mutant_of_a_public_urdf_is_read_as_the_file_itself(files, each, tmp_path):
     """Read, refused or reported: the robot file or its notes are others."""
     rng = np.random.default_rng()
     for original in drawn_urdfs(files, 25 if files == 5 else 60):

@@ -7,19 +7,15 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import RobotError
+from modeler.formats import mdh_rows
 from modeler.formats.body_tree import BodyTree, Inertial, Pose, TreeJoint, collect_moving_links
-from modeler.formats.mdh_rows import (
-    build_mdh_table,
-    compute_roll_pitch_yaw,
-    snap_angle,
-    snap_length,
-)
 from modeler.formats.thresholds import THRESHOLDS
 from modeler.formats.tree_text import convert_tree
 from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import JointKind as Kind, Robot
 from tests.oracles.pinocchio_dynamics import pin, places_of
 from tests.robot.poses import link_poses
+from tests.rotation import with_cases
 
 TURNS, SLIDES, FIXED = Kind.REVOLUTE, Kind.PRISMATIC, Kind.FIXED
 
@@ -158,7 +154,7 @@ def test_serial_chains_need_neither_gamma_nor_b():
     for tree in trees(72, 40, serial=True):
         if any(joint.kind is SLIDES for joint in tree.joints):
             continue
-        for row in build_mdh_table(collect_moving_links(tree)).rows[1:]:
+        for row in mdh_rows.build_mdh_table(collect_moving_links(tree)).rows[1:]:
             assert row.cells["gamma"] == row.cells["b"] == 0.0
 
 
@@ -171,7 +167,7 @@ def test_nearly_parallel_axes_keep_their_accuracy(tilt):
         assert pose < 2e-9  # an angle within 1e-9 of a right one is one
         assert torque < 2e-9
         table, ways = (
-            build_mdh_table(collect_moving_links(tree)),
+            mdh_rows.build_mdh_table(collect_moving_links(tree)),
             [np.abs(j.pose.position) for j in tree.joints],
         )
         most = THRESHOLDS.max_foot_distance_ratio * 3 * (max(map(np.max, ways)) or 1.0)
@@ -180,15 +176,17 @@ def test_nearly_parallel_axes_keep_their_accuracy(tilt):
 
 
 def test_numbers_are_exact_where_they_are():
-    assert snap_length(0.1 + 0.2) == 0.3 and str(snap_length(-1e-17)) == "0.0"
-    assert snap_length(1 / 3) == 1 / 3
-    assert snap_angle(3 * math.pi / 2) == -math.pi / 2
-    assert snap_angle(-math.pi) == snap_angle(math.pi) == math.pi
-    assert snap_angle(0.7) == 0.7 and snap_angle(math.pi / 12 + 1e-8) != math.pi / 12
+    assert mdh_rows.snap_length(0.1 + 0.2) == 0.3 and str(mdh_rows.snap_length(-1e-17)) == "0.0"
+    assert mdh_rows.snap_length(1 / 3) == 1 / 3
+    assert mdh_rows.snap_angle(3 * math.pi / 2) == -math.pi / 2
+    assert mdh_rows.snap_angle(-math.pi) == mdh_rows.snap_angle(math.pi) == math.pi
+    assert (
+        mdh_rows.snap_angle(0.7) == 0.7 and mdh_rows.snap_angle(math.pi / 12 + 1e-8) != math.pi / 12
+    )
     rng = np.random.default_rng(5)
     for angles in [*rng.uniform(-3, 3, (20, 3)), (0.3, math.pi / 2, 0.4), (1.0, -math.pi / 2, 2)]:
         R = pin.rpy.rpyToMatrix(*map(float, angles))
-        again = pin.rpy.rpyToMatrix(*compute_roll_pitch_yaw(R))
+        again = pin.rpy.rpyToMatrix(*mdh_rows.compute_roll_pitch_yaw(R))
         np.testing.assert_allclose(again, R, rtol=0, atol=1e-14)
 
 
@@ -223,23 +221,24 @@ def test_text_of_a_tree():
     assert values == {"Fv1": 0.5, "Fs1": 0.2, "Ia1": 0.1, "Ks2": 2.0}
     uses = {use.effect: use for use in robot.effects}
     assert {name: use.joints for name, use in uses.items()} == {
-        "rotor_inertia": ("1", "2"), "viscous": ("1", "2"), "coulomb": ("1", "2"), "spring": ("2",),
+        "rotor_inertia": ("1", "2"),
+        "viscous": ("1", "2"),
+        "coulomb": ("1", "2"),
+        "spring": ("2",),
         "offset": ("1", "2"),
-    }  # fmt: skip
+    }
     assert uses["spring"].stated_instances[0].nonlinear_parameters == {"q0": 0.1, "h": 0.0}
     assert robot.uncertainty == {"inertial": 0.3}
     assert robot.limits.keys() == {"2"} and robot.limits["2"].upper == 2.0
     assert {f.joint for f in robot.frames.values()} == {"", "a", "b", "c"}
 
 
-@pytest.mark.parametrize(
-    ("pull", "cells"),
-    [
-        ((1e-16, 0.0, -9.81), ["0", "0", "-g"]),
-        ((9.80665, 0.0, 0.0), ["g", "0", "0"]),
-        ((-3.1, 2e-5, -1.62), ["-3.1", "2e-05", "-1.62"]),
-        ((0.0, 0.0, 0.0), ["0", "0", "0"]),
-    ],
+@with_cases(
+    "pull, cells",
+    ((1e-16, 0.0, -9.81), ["0", "0", "-g"]),
+    ((9.80665, 0.0, 0.0), ["g", "0", "0"]),
+    ((-3.1, 2e-5, -1.62), ["-3.1", "2e-05", "-1.62"]),
+    ((0.0, 0.0, 0.0), ["0", "0", "0"]),
 )
 def test_gravity_is_a_symbol_along_an_axis(pull, cells):
     robot = read(tree_of(turning("a", "base"), gravity=np.array(pull)))
@@ -264,13 +263,16 @@ def test_bodies_without_values_have_no_prior():
         frame,
         fake,
         bodies={
-            "a_link": None, "b_link": None, "c_link": Inertial(1.0, np.zeros(3), np.eye(3)),
-            "flange": nothing, "marker": Inertial(1.0, np.zeros(3), np.eye(3)),
+            "a_link": None,
+            "b_link": None,
+            "c_link": Inertial(1.0, np.zeros(3), np.eye(3)),
+            "flange": nothing,
+            "marker": Inertial(1.0, np.zeros(3), np.eye(3)),
         },
         auxiliary_bodies=frozenset({"b_link"}),
         unreliable_bodies={name: "the identity as inertia" for name in ("c_link", "marker")}
         | {"flange": "mass 0"},
-    )  # fmt: skip
+    )
     made = convert_tree(tree, "drawn.xml")
     robot = parse_robot_text(made.text, "drawn.toml")
     assert {n[1:] for n in robot.parameters if n.startswith("M") and n[1:].isdigit()} == {"3", "5"}

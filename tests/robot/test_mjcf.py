@@ -18,6 +18,7 @@ from modeler.robot.robot import JointKind
 from tests.elementary_motions import turn
 from tests.robot.spoilt_files import check_spoilt, most_memory
 from tests.robot.texts import ARM_XML as ARM, edited
+from tests.rotation import with_cases
 
 mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: mujoco-core is not installed")
 
@@ -86,16 +87,14 @@ def turned(*turns: tuple[int, float]) -> np.ndarray:
     return np.linalg.multi_dot([np.eye(4), *(turn(k, math.radians(x)) for k, x in turns)])[:3, :3]
 
 
-@pytest.mark.parametrize(
-    ("printed", "expected"),
-    [
-        ('quat="0.653281 0.270598 0.653281 0.270598"', turned((1, 90), (2, 45))),
-        ('quat="0.183013 0.683013 -0.683013 0.183013"', turned((0, 150), (2, 90))),
-        ('quat="0.707105 0 0 0.707108"', turned((2, 90))),  # of 1.5708
-        ('quat="0.976 0 0.216 0"', None),  # no multiple of 15 degrees: as printed
-        ('axisangle="0.5 0 0.866025 1.5708"', QUARTER_ABOUT_C0S),
-        ('euler="1e-8 0 -3.1416"', np.diag([-1, -1, 1])),
-    ],
+@with_cases(
+    "printed, expected",
+    ('quat="0.653281 0.270598 0.653281 0.270598"', turned((1, 90), (2, 45))),
+    ('quat="0.183013 0.683013 -0.683013 0.183013"', turned((0, 150), (2, 90))),
+    ('quat="0.707105 0 0 0.707108"', turned((2, 90))),  # of 1.5708
+    ('quat="0.976 0 0.216 0"', None),  # no multiple of 15 degrees: as printed
+    ('axisangle="0.5 0 0.866025 1.5708"', QUARTER_ABOUT_C0S),
+    ('euler="1e-8 0 -3.1416"', np.diag([-1, -1, 1])),
 )
 def test_printed_orientations(printed: str, expected: np.ndarray | None, tmp_path: Path) -> None:
     """What is made good is what the digits round, and is exact."""
@@ -137,19 +136,15 @@ def test_meshes_that_are_not_there_matter_where_they_weigh(tmp_path: Path) -> No
     assert "M1" not in robot.parameters and "M4" in robot.parameters
 
 
-@pytest.mark.parametrize(
-    ("tie", "follower", "leader", "ratio", "offset"),
-    [
-        # q1 - q1_0 = a0 + a1 (q2 - q2_0): of a joint without motor and one with
-        ('<joint joint1="roll" joint2="lift" polycoef="0.2 3"/>', "roll", "lift", 3, -0.1),
-        # turned round, for pan has a motor and roll has none
-        ('<joint joint1="pan" joint2="roll" polycoef="0.2 -2"/>', "roll", "pan", -0.5, 0.1),
-        ('<tendon tendon1="pair" polycoef="0.4"/>', "roll", "bend", -0.5, 0.2),
-    ],
+@with_cases(
+    "tie, follower, leader, ratio, offset",
+    # q1 - q1_0 = a0 + a1 (q2 - q2_0): of a joint without motor and one with
+    ('<joint joint1="roll" joint2="lift" polycoef="0.2 3"/>', "roll", "lift", 3, -0.1),
+    # turned round, for pan has a motor and roll has none
+    ('<joint joint1="pan" joint2="roll" polycoef="0.2 -2"/>', "roll", "pan", -0.5, 0.1),
+    ('<tendon tendon1="pair" polycoef="0.4"/>', "roll", "bend", -0.5, 0.2),
 )
-def test_linear_equalities_are_relations(
-    tie: str, follower: str, leader: str, ratio: float, offset: float, tmp_path: Path
-) -> None:
+def test_linear_equalities_are_relations(tie, follower, leader, ratio, offset, tmp_path):
     pair = '<tendon><fixed name="pair"><joint joint="roll" coef="2"/><joint joint="bend" coef="1"/>'
     text = with_section(f"{pair}</fixed></tendon><equality>{tie}</equality>")
     joint = joints(read(tmp_path, text))[follower]
@@ -183,10 +178,14 @@ def test_chains_of_equalities_and_joints_that_stand_still(tmp_path: Path) -> Non
 
 
 LOOP = edited(
-    ARM, ('<body name="tip"', '<site name="a" pos="0 0 0.1"/><body name="tip"'),
-    ("</worldbody>", '<body name="rod" pos="0.5 0 0.4"><joint name="free" axis="0 1 0"/>'
-     '<site name="b" pos="0 0 1e-8"/><geom size="0.1"/></body></worldbody>'),
-)  # fmt: skip
+    ARM,
+    ('<body name="tip"', '<site name="a" pos="0 0 0.1"/><body name="tip"'),
+    (
+        "</worldbody>",
+        '<body name="rod" pos="0.5 0 0.4"><joint name="free" axis="0 1 0"/>'
+        '<site name="b" pos="0 0 1e-8"/><geom size="0.1"/></body></worldbody>',
+    ),
+)
 
 
 def test_connect_is_a_meeting(tmp_path: Path) -> None:
@@ -239,9 +238,13 @@ def test_what_floats_stands_still_or_is_left_out(tmp_path: Path) -> None:
     assert joints(tree)["root"].pose.position.tolist() == [0, 0, 1]
     assert not tree.loop_closures
     for words in (
-        "base floats; here it stands still", "cube floats; it is left out", "hand is dragged",
-        "left out with what ties it", "move as one", 'gravcomp of "foot"',
-    ):  # fmt: skip
+        "base floats; here it stands still",
+        "cube floats; it is left out",
+        "hand is dragged",
+        "left out with what ties it",
+        "move as one",
+        'gravcomp of "foot"',
+    ):
         assert words in notes_of(tree)
 
 
@@ -256,11 +259,14 @@ def test_ball_joints_wait_until_they_are_cut_off(tmp_path: Path) -> None:
 
 def test_what_is_left_out_is_told(tmp_path: Path) -> None:
     text = edited(
-        ARM, ('gravity="0 0 -9.8"', 'viscosity="0.1"'),
+        ARM,
+        ('gravity="0 0 -9.8"', 'viscosity="0.1"'),
         ('stiffness="3"', 'stiffness="3 1"'),
-        ("</actuator>", '</actuator><tendon><fixed damping="1"><joint joint="pan" coef="1"/>'
-         "</fixed></tendon>"),
-    )  # fmt: skip
+        (
+            "</actuator>",
+            '</actuator><tendon><fixed damping="1"><joint joint="pan" coef="1"/></fixed></tendon>',
+        ),
+    )
     notes = notes_of(read(tmp_path, text))
     for words in ("forces of the fluid", "of polynomial springs", "of tendons are left out"):
         assert words in notes
@@ -329,17 +335,13 @@ def test_sizes_without_bound_cost_nothing(tmp_path: Path) -> None:
     assert most_memory() - before < 300e6
 
 
-def test_without_mujoco_it_says_what_to_install(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_mujoco_it_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", None)
     with pytest.raises(RobotError, match=r'run: pip install "modeler-robotics\[mjcf\]"'):
         read(tmp_path)
 
 
-def test_nothing_is_printed_and_no_log_is_written(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_nothing_is_printed_and_no_log_is_written(tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
     old = edited(
         ARM, ('autolimits="true"', 'autolimits="true" settotalmass="5"')
@@ -374,18 +376,16 @@ SCENE = """<mujoco model="scene"><compiler angle="radian" %s/><worldbody>
 </body></body></worldbody><actuator><motor joint="j1"/><motor joint="j2"/></actuator></mujoco>"""
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "option",
-    [
-        'settotalmass="10"',
-        'settotalmass="0.3" inertiafromgeom="true"',
-        'settotalmass="25" inertiagrouprange="0 2"',
-        'settotalmass="4" fusestatic="true"',
-        'settotalmass="4" discardvisual="true" boundmass="1.5"',
-        'boundmass="0.5" boundinertia="0.004"',
-        'balanceinertia="true"',
-        'inertiafromgeom="auto" inertiagrouprange="3 3" settotalmass="0"',
-    ],
+    'settotalmass="10"',
+    'settotalmass="0.3" inertiafromgeom="true"',
+    'settotalmass="25" inertiagrouprange="0 2"',
+    'settotalmass="4" fusestatic="true"',
+    'settotalmass="4" discardvisual="true" boundmass="1.5"',
+    'boundmass="0.5" boundinertia="0.004"',
+    'balanceinertia="true"',
+    'inertiafromgeom="auto" inertiagrouprange="3 3" settotalmass="0"',
 )
 def test_masses_are_those_that_mujoco_compiles(option: str, tmp_path: Path) -> None:
     """With bodies in the scene that are no part of the robot, and drawn masses."""
@@ -419,16 +419,14 @@ def test_a_total_mass_of_meshes_that_are_not_there_is_refused(tmp_path: Path) ->
     assert "no values of" in notes_of(read(tmp_path, text.replace('settotalmass="10"', "")))
 
 
-@pytest.mark.parametrize(
-    ("flag", "gone"),
-    [
-        ("spring", ("stiffness",)),
-        ("damper", ("damping",)),
-        ("frictionloss", ("friction",)),
-        ("constraint", ("friction", "leader")),
-        ("equality", ("leader",)),
-        ("contact", ()),
-    ],
+@with_cases(
+    "flag, gone",
+    ("spring", ("stiffness",)),
+    ("damper", ("damping",)),
+    ("frictionloss", ("friction",)),
+    ("constraint", ("friction", "leader")),
+    ("equality", ("leader",)),
+    ("contact", ()),
 )
 def test_what_a_flag_switches_off_is_not_there(flag: str, gone: tuple, tmp_path: Path) -> None:
     ties = '<equality><joint joint1="roll" joint2="pan" polycoef="0 2 0 0 0"/></equality>'

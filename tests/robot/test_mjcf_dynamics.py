@@ -26,23 +26,28 @@ from modeler.robot.robot import INERTIAL, JointKind
 from tests.elementary_motions import frames
 from tests.modules import loaded
 from tests.robot.poses import place_on_row
+from tests.rotation import with_cases
 
 mujoco = pytest.importorskip("mujoco", reason="NOT CHECKED: mujoco-core is not installed")
 
 GYM, DM, SUITE = "gymnasium_robotics/envs", "dm_control", "robosuite/models/assets"
 FILES = [
-    *(f"{GYM}/mujoco/assets/{n}.xml" for n in (
-        "ant", "half_cheetah", "humanoid", "pusher", "reacher", "swimmer", "walker2d")),
+    *(
+        f"{GYM}/mujoco/assets/{n}.xml"
+        for n in ("ant", "half_cheetah", "humanoid", "pusher", "reacher", "swimmer", "walker2d")
+    ),
     f"{GYM}/assets/fetch/reach.xml",
     f"{GYM}/assets/hand/reach.xml",
     f"{GYM}/assets/adroit_hand/adroit_pen.xml",
     f"{GYM}/assets/kitchen_franka/kitchen_assets/kitchen_env_model.xml",
     *(f"{DM}/suite/{n}.xml" for n in ("manipulator", "fish", "hopper", "humanoid_CMU", "finger")),
     f"{DM}/third_party/kinova/jaco_arm.xml",
-    *(f"{SUITE}/robots/{n}/robot.xml" for n in (
-        "panda", "sawyer", "ur5e", "iiwa", "kinova3", "baxter")),
+    *(
+        f"{SUITE}/robots/{n}/robot.xml"
+        for n in ("panda", "sawyer", "ur5e", "iiwa", "kinova3", "baxter")
+    ),
     f"{SUITE}/grippers/robotiq_gripper_s.xml",
-]  # fmt: skip
+]
 
 
 KINDS = ("ant.xml", "walker2d.xml", "pusher.xml", "fetch/reach.xml")
@@ -65,13 +70,24 @@ def each_of(files, always):
     """
     packages = sorted({file.split("/")[0] for file in files if there(file) is None})
     name = "{0[0]}-{0[1]}".format
-    return pytest.mark.parametrize("path", [
-        *(pytest.param(there(f), id=name(f.removesuffix("/robot.xml").split("/")[-2:]),
-                       marks=() if f.endswith(always) else pytest.mark.rotating)
-          for f in files if there(f)),
-        *(pytest.param(None, id=p, marks=pytest.mark.skip(
-            f"NOT CHECKED: {p}, which is not installed")) for p in packages),
-    ])  # fmt: skip
+    return with_cases(
+        "path",
+        *(
+            pytest.param(
+                there(f),
+                id=name(f.removesuffix("/robot.xml").split("/")[-2:]),
+                marks=() if f.endswith(always) else pytest.mark.rotating,
+            )
+            for f in files
+            if there(f)
+        ),
+        *(
+            pytest.param(
+                None, id=p, marks=pytest.mark.skip(f"NOT CHECKED: {p}, which is not installed")
+            )
+            for p in packages
+        ),
+    )
 
 
 @contextmanager

@@ -7,6 +7,7 @@ from modeler.robot.read import read_robot
 from modeler.robot.robot import INERTIAL
 from tests.elementary_motions import frames, row_pose, shift, turn
 from tests.robots import LOOPED, ROBOTS, TIED
+from tests.rotation import with_cases
 
 PI = np.pi
 
@@ -89,14 +90,12 @@ def test_puma560_is_the_table_of_armstrong():
         near(poses[str(number)], moved)
 
 
-@pytest.mark.parametrize(
-    ("name", "q", "place"),
-    [
-        ("kinova_gen3", np.zeros(7), [0, -0.02485, 0.28481 + 0.42076 + 0.31436 + 0.10593]),
-        ("lwr", np.zeros(7), [0, 0, 0.3105 + 0.4 + 0.39]),
-        ("rx90", [0, PI / 2, -PI / 2, 0, 0, 0], [0, 0, 0.9]),
-        ("tx40", [0, -PI / 2, PI / 2, 0, 0, 0], [0, 0.035, 0.45]),
-    ],
+@with_cases(
+    "name, q, place",
+    ("kinova_gen3", np.zeros(7), [0, -0.02485, 0.28481 + 0.42076 + 0.31436 + 0.10593]),
+    ("lwr", np.zeros(7), [0, 0, 0.3105 + 0.4 + 0.39]),
+    ("rx90", [0, PI / 2, -PI / 2, 0, 0, 0], [0, 0, 0.9]),
+    ("tx40", [0, -PI / 2, PI / 2, 0, 0, 0], [0, 0.035, 0.45]),
 )
 def test_arms_straight_up(name, q, place):
     poses = frames(name, q)
@@ -181,15 +180,13 @@ def test_nominal_links_are_bodies(name, joints):
         assert np.linalg.eigvalsh(pseudo)[0] > 0
 
 
-@pytest.mark.parametrize(
-    ("joint", "mass", "centre", "inertia"),
-    [
-        ("2", 17.4, [0.068, 0.006, -0.016 + 0.2435], [0.13, 0.524, 0.539]),
-        ("3", 4.8, [0, -0.070, 0.014], [0.066, 0.0125, 0.066]),
-        ("4", 0.82, [0, 0, -0.019], [1.8e-3, 1.8e-3, 1.3e-3]),
-        ("5", 0.34, [0, 0, 0], [0.3e-3, 0.3e-3, 0.4e-3]),
-        ("6", 0.09, [0, 0, 0.032], [0.15e-3, 0.15e-3, 0.04e-3]),
-    ],
+@with_cases(
+    "joint, mass, centre, inertia",
+    ("2", 17.4, [0.068, 0.006, -0.016 + 0.2435], [0.13, 0.524, 0.539]),
+    ("3", 4.8, [0, -0.070, 0.014], [0.066, 0.0125, 0.066]),
+    ("4", 0.82, [0, 0, -0.019], [1.8e-3, 1.8e-3, 1.3e-3]),
+    ("5", 0.34, [0, 0, 0], [0.3e-3, 0.3e-3, 0.4e-3]),
+    ("6", 0.09, [0, 0, 0.032], [0.15e-3, 0.15e-3, 0.04e-3]),
 )
 def test_puma560_links_are_those_of_armstrong(joint, mass, centre, inertia):
     """Steiner backwards: about the mass centre the published values come out."""

@@ -23,10 +23,7 @@ def test_what_is_written_once_stands_for_every_leg():
     assert [loop.frame for loop in robot.loops] == ["31", "32"]
     assert robot.home["12"] == 2.2 and robot.parameters["M12"] == 0.5
     assert next(u for u in robot.effects if u.effect == "coulomb").joints == (
-        "11",
-        "12",
-        "21",
-        "22",
+        *"11 12 21 22".split(),
     )
     assert next(u for u in robot.effects if u.effect == "viscous").joints == ("11", "12")
 

@@ -20,6 +20,7 @@ from tests.robot.texts import (
     PLANAR,
     check_mistake,
 )
+from tests.rotation import with_cases
 
 D = '0, "D3"'
 V, U = "Fv1 = 2\n", "[parameters.uncertainty]"
@@ -129,7 +130,7 @@ IN_ARM = [
     ("inertia", '"J2", 0, "J3"]', '"J2"]', "inertia .. got 4 entries, expected 6 .. YZ"),
     ("physical q", 'mass = "m1"', 'mass = "q1"', "[physical] .. joint variable q1 .. rigid"),
     ("physical text", 'mass = "m1"', 'mass = "m1 *"', 'mass .. got "m1 *" .. cannot be read'),
-]  # fmt: skip
+]
 
 MOST = "expected at most "
 UNITS_AND_SIZES_IN_ARM = [
@@ -162,7 +163,7 @@ UNITS_AND_SIZES_IN_ARM = [
     ("gravity", '"-g"', '"-1e9*g"', "gravity, entry 3: got .. at most 10000"),
     ("parameter", "ZZ1 = 0.5", "M2 = 1e300", "[parameters], M2: got 1e+300; .. 1e+12"),
     ("coupling", '"q1 + 2*q2"', '"1e5*q1 + q2"', '[coupling], "2": .. at most 10000'),
-]  # fmt: skip
+]
 
 IN_PLANAR = [
     ("mark without legs", 'legs = ["1", "2"]\n', "", "{i} stands for the legs .. names none"),
@@ -193,7 +194,7 @@ IN_PLANAR = [
     ("links parameter", '["M", "MX"]', '["M", "X"]', '[links] .. "P" .. "X" .. expected some of'),
     ("shared without mark", '"*2{i}"', '"*2"', 'shared .. "*2" .. {i}'),
     ("shared nothing", '"*2{i}"', '"*9{i}"', "shared .. matches no parameter of leg 1"),
-]  # fmt: skip
+]
 
 IN_OWN_EFFECTS = [
     ("no table", "[own_effects.wave]", "[own_effects]\nwave = 3\n[terms]", "wave]: got 3"),
@@ -230,8 +231,12 @@ IN_OWN_EFFECTS = [
     ("lag no text", HOOK, f"{HOOK}\nlag = [1]", "hook], lag: got [1] .. expression"),
     ("lag without tau", HOOK, f'{HOOK}\nlag = "v*d"', "shapes: z lags by a time .. {tau ="),
     ("lag unused", EDDY, f'{EDDY}\nlag = "v"', "lag: no equation uses z, which lags"),
-    ("lag infinite", f"{HOOK}\n{TRAVEL}",
-     f'{HOOK}\nlag = "1/v"\nshapes = {{tau = [0.1, 1]}}', "lag = .. no finite value at v = 0"),
+    (
+        "lag infinite",
+        f"{HOOK}\n{TRAVEL}",
+        f'{HOOK}\nlag = "1/v"\nshapes = {{tau = [0.1, 1]}}',
+        "lag = .. no finite value at v = 0",
+    ),
     ("unit no text", '"N*m*s/rad"', "3", "unit: got 3; expected text"),
     ("unit ends comment", '"N*m*s/rad"', '"N */ x"', "unit: got .. expected text such as"),
     ("unit of another", "{Ws =", "{Wx =", 'unit: got "Wx" .. no parameter of this .. Wc, Ws'),
@@ -243,7 +248,7 @@ IN_OWN_EFFECTS = [
     ("no shapes", '[{joint = "2", c = 0.7, w = 0.2}]', '"all"', 'got "all"; expected its shapes'),
     ("one missing", ", w = 0.2", "", "eddy_brake: got the shapes c; expected eddy_brake = [{"),
     ("shape 0 there", "w = 0.2", "w = 0", 'joint "2": Keb = .. no finite value'),
-]  # fmt: skip
+]
 
 IN_FRAMES_AND_TOOL = [
     ("column twice", '"link", "row"', '"link", "link"', "[frames], columns: got .. link, row and"),
@@ -262,7 +267,7 @@ IN_FRAMES_AND_TOOL = [
     ("tool link no text", 'link = "hand"', "link = 1", "link: got 1"),
     ("tool on both", 'x = "2*D3"', 'row = "2"', "[tool] .. keep one of them"),
     ("tool angle", '"2*D3"', '"30 deg"', "[tool], x"),
-]  # fmt: skip
+]
 
 IN_MOTORS = [
     ("singular", "q2 - 0.4*q1", "2*q1", "[motors] .. singular, some motion of 1, 2, 3 turns no"),
@@ -277,12 +282,12 @@ IN_MOTORS = [
     ("dash", "m2 =", '"m-2" =', "expected a name of letters and digits"),
     ("no sum", '"q2 - 0.4*q1"', "[1]", "expected a number or an expression"),
     ("relation", MOTORS, f'{MOTORS}[relations]\nq3 = "q2"\n', "follows motors of [motors] too"),
-]  # fmt: skip
+]
 
 IN_PASSIVE_FRICTION = [
     ("motor", "[effects]", f'{RUB}["11"]', 'joint "11" has a motor .. write viscous and coulomb'),
     ("twice", "[effects]", f'{RUB}["21"]\ncoulomb = ["21"]', '"21" has coulomb already .. of one'),
-]  # fmt: skip
+]
 
 IN_LAW = [
     ("no table", f"law = {TABLE}\n", "", "no function law; .. key `law`"),
@@ -301,14 +306,18 @@ IN_LAW = [
     ("half a cell", "[2]", "[2.5]", "of 2.5 cells; expected low < high"),
     ("no cell", "[2]", "[0]", "of 0 cells; expected"),
     ("too few", "[2]", "[3]", "values: got 5 numbers; expected 6, 3 more"),
-]  # fmt: skip
+]
 
 TABLES = {
-    "arm": (ARM, IN_ARM), "units and sizes": (ARM, UNITS_AND_SIZES_IN_ARM),
-    "frames and tool": (ARM, IN_FRAMES_AND_TOOL), "planar": (PLANAR, IN_PLANAR),
-    "own effects": (OWN_EFFECTS, IN_OWN_EFFECTS), "law": (LAW, IN_LAW),
-    "motors": (COUPLED, IN_MOTORS), "passive friction": (FIVE_BAR, IN_PASSIVE_FRICTION),
-}  # fmt: skip
+    "arm": (ARM, IN_ARM),
+    "units and sizes": (ARM, UNITS_AND_SIZES_IN_ARM),
+    "frames and tool": (ARM, IN_FRAMES_AND_TOOL),
+    "planar": (PLANAR, IN_PLANAR),
+    "own effects": (OWN_EFFECTS, IN_OWN_EFFECTS),
+    "law": (LAW, IN_LAW),
+    "motors": (COUPLED, IN_MOTORS),
+    "passive friction": (FIVE_BAR, IN_PASSIVE_FRICTION),
+}
 
 
 @pytest.mark.parametrize(
@@ -337,14 +346,12 @@ def test_a_row_before_its_antecedent_is_told_where_to_go():
 ROCK = 'name = "rock"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j", "sigma", "theta"]\nrows = ['
 
 
-@pytest.mark.parametrize(
-    ("rows", "told"),
-    [
-        ('["1", 2, 0]', '[mdh], row "1": no row of the table moves'),
-        ("", "[mdh], rows: the table is empty; write one row"),
-        ('["1", 0, "q1"], ["1R", 0, "q1R"]', 'row "1R": the name makes XX1R a parameter, which is'),
-        ('["1", 0, "q1"], ["X1", 0, "qX1"]', 'row "X1" .. MX1 mean two parameters, with row "1"'),
-    ],
+@with_cases(
+    "rows, told",
+    ('["1", 2, 0]', '[mdh], row "1": no row of the table moves'),
+    ("", "[mdh], rows: the table is empty; write one row"),
+    ('["1", 0, "q1"], ["1R", 0, "q1R"]', 'row "1R": the name makes XX1R a parameter, which is'),
+    ('["1", 0, "q1"], ["X1", 0, "qX1"]', 'row "X1" .. MX1 mean two parameters, with row "1"'),
 )
 def test_a_table_that_is_no_robot_is_refused(rows, told):
     check_mistake(f"{ROCK}x]", "x]", f"{rows}]", told)

@@ -77,8 +77,9 @@ def test_an_effect_is_put_on_one_joint_more():
     text = insert_effect(OWN_EFFECTS, "eddy_brake", "1", {"c": -0.25, "w": 0.125})
     use = next(u for u in parse_robot_text(text, "arm").effects if u.effect == "eddy_brake")
     assert {i.joint: dict(i.nonlinear_parameters) for i in use.instances} == {
-        "2": {"c": 0.7, "w": 0.2}, "1": {"c": -0.25, "w": 0.125},
-    }  # fmt: skip
+        "2": {"c": 0.7, "w": 0.2},
+        "1": {"c": -0.25, "w": 0.125},
+    }
 
 
 def test_names_become_tables_where_one_has_values():
@@ -94,9 +95,14 @@ def test_names_become_tables_where_one_has_values():
 
 def test_from_python_without_a_file():
     robot = define_effect(
-        load("emps"), "fan", title='a "fan"', columns={"Kf": "v*abs(v)"}, nonnegative=True,
-        shapes={}, unit="N*s^2/m^2",
-    )  # fmt: skip
+        load("emps"),
+        "fan",
+        title='a "fan"',
+        columns={"Kf": "v*abs(v)"},
+        nonnegative=True,
+        shapes={},
+        unit="N*s^2/m^2",
+    )
     (fan,) = robot.own_effects
     assert (fan.id, fan.title, fan.columns[0].nonnegative) == ("fan", 'a "fan"', True)
     assert parse_robot_text(robot.text, "again").own_effects == (fan,)

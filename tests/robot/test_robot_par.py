@@ -18,6 +18,8 @@ from modeler.robot.cells import recognise_angle
 from modeler.robot.read import parse_robot_text
 from tests.elementary_motions import frames
 from tests.robot.par_files import BOOM, INERTIA, par_of, par_text
+from tests.rotation import with_cases
+from tests.texts import read_pairs
 
 
 def convert(text: str, where: str = "arm.par"):
@@ -29,13 +31,11 @@ def convert(text: str, where: str = "arm.par"):
 TWINS = ("rx90", "puma560", "scara", "sr400-tree", "tx40")
 
 
-@pytest.mark.parametrize(
-    ("name", "letters"),
-    [
-        ("sr400", True),
-        ("sr400", False),
-        *(pytest.param(n, x, marks=pytest.mark.rotating) for n in TWINS for x in (True, False)),
-    ],
+@with_cases(
+    "name, letters",
+    ("sr400", True),
+    ("sr400", False),
+    *(pytest.param(n, x, marks=pytest.mark.rotating) for n in TWINS for x in (True, False)),
 )
 def test_the_frames_of_a_twin_are_the_same(name, letters):
     robot = read_robot(name)
@@ -69,16 +69,30 @@ def test_numbers_keep_the_structure_of_a_loop():
     assert len(twin.symbols) == 6  # g, D2, D3, D4, R4, D8: RL4 is on no loop, and no length of it
 
 
-@pytest.mark.parametrize(
-    ("digits", "angle"),
-    [
-        ("1.5708", "pi/2"), ("-1.571", "-pi/2"), ("1.57", "pi/2"), ("1.57080", "pi/2"),
-        ("3.1415", "pi"), ("0.2618", "pi/12"), ("-4.7124", "-3*pi/2"), ("6.2832", "2*pi"),
-        ("1.5707963267948966", "pi/2"), ("15.708e-1", "pi/2"), ("0.785398163", "pi/4"),
-        ("0", None), ("0.0001", None), ("2.880", "11*pi/12"), ("2.88", None), ("0.260000", None),
-        ("1.58", None), ("0.79", None), ("2", None), ("1.57090", None), ("0.785398173", None),
-    ],
-)  # fmt: skip
+@with_cases(
+    "digits, angle",
+    ("1.5708", "pi/2"),
+    ("-1.571", "-pi/2"),
+    ("1.57", "pi/2"),
+    ("1.57080", "pi/2"),
+    ("3.1415", "pi"),
+    ("0.2618", "pi/12"),
+    ("-4.7124", "-3*pi/2"),
+    ("6.2832", "2*pi"),
+    ("1.5707963267948966", "pi/2"),
+    ("15.708e-1", "pi/2"),
+    ("0.785398163", "pi/4"),
+    ("0", None),
+    ("0.0001", None),
+    ("2.880", "11*pi/12"),
+    ("2.88", None),
+    ("0.260000", None),
+    ("1.58", None),
+    ("0.79", None),
+    ("2", None),
+    ("1.57090", None),
+    ("0.785398173", None),
+)
 def test_rounded_angles(digits, angle):
     assert recognise_angle(digits) == angle
 
@@ -101,10 +115,15 @@ def test_every_multiple_is_found_in_its_rounding_and_hardly_ever_elsewhere(decim
 
 def test_letters_and_numbers():
     lists = {
-        "Ant": "0,1,2,3", "Sigma": "0,0,1,2", "d": "0,0.25,L*2,-0.25", "R": "RL1,0,r3,0.1",
-        "gamma": "0,0,0,0.3", "Alpha": "0,Pi/2,-1.5708,0", "Theta": "th1,th2 - 1.571,0,0",
+        "Ant": "0,1,2,3",
+        "Sigma": "0,0,1,2",
+        "d": "0,0.25,L*2,-0.25",
+        "R": "RL1,0,r3,0.1",
+        "gamma": "0,0,0,0.3",
+        "Alpha": "0,Pi/2,-1.5708,0",
+        "Theta": "th1,th2 - 1.571,0,0",
         "Mu": "1,0,1,0",
-    }  # fmt: skip
+    }
     robot, converted = convert(par_text(lists, "my arm"))
     rows = tomllib.loads(converted.text)["mdh"]["rows"]
     assert rows == [
@@ -145,23 +164,17 @@ def test_joint_variables():
 def test_names_that_mean_something_else_are_changed():
     lists = {"Ant": "0,1,2,3,4,5", "d": "0,lambda,M2,double,qd1,β", "Theta": "t1,t2,t3,t4,t5,t6"}
     robot, converted = convert(par_text(lists))
-    assert [joint.d.text for joint in robot.joints] == [
-        "0", "lambda_", "M2_", "double_", "qd1_", "s1",
-    ]  # fmt: skip
+    assert [joint.d.text for joint in robot.joints] == "0 lambda_ M2_ double_ qd1_ s1".split()
     told = "\n".join(converted.notes)
     for was in ("lambda", "M2", "double", "qd1", "β"):
         assert f"{was} is called" in told
 
 
 def test_bodies_with_and_without_parameters():
-    lists = {
-        "Ant": "0,1,2",
-        "Theta": "t1,t2,t3",
-        "Mu": "1,1,0",
-        "XX": "XX1,0.5,0", "XY": "0,0,0", "XZ": "0,0,0", "YY": "0,0.25,0", "YZ": "0,0,0",
-        "ZZ": "J,1e-2,0", "MX": "MX1,0,0", "MY": "0,0,0", "MZ": "0,0,0", "M": "M1,3,0",
-        "IA": "IA1,0,IA3", "FV": "FV1,FV2,FV3", "FS": "0,1.5,0",
-    }  # fmt: skip
+    lists = read_pairs("""
+        Ant 0,1,2 Theta t1,t2,t3 Mu 1,1,0 XX XX1,0.5,0 XY 0,0,0 XZ 0,0,0 YY 0,0.25,0 YZ 0,0,0
+        ZZ J,1e-2,0 MX MX1,0,0 MY 0,0,0 MZ 0,0,0 M M1,3,0 IA IA1,0,IA3 FV FV1,FV2,FV3 FS 0,1.5,0
+    """)
     robot, converted = convert(par_text(lists))
     assert robot.get_inertial_prefixes("1") == ("XX", "ZZ", "MX", "M")
     assert set(robot.get_inertial_prefixes("2")) == set(INERTIA)  # numbers: 0 is a value
@@ -176,18 +189,16 @@ def test_bodies_with_and_without_parameters():
     assert "added to the joints with friction: offset (1, 2)" in told
 
 
-@pytest.mark.parametrize(
-    ("lists", "line", "told"),
-    [
-        ({"FX": "0,FX2"}, "", "FX are left out"),
-        ({"W0": "0,0,w"}, "", "W0 are left out"),
-        ({"VP0": "0,0,1"}, "", "VP0 are left out"),
-        ({"eta": "0,1"}, "", "eta are left out"),
-        ({"Z": "1,0,0,0,0,1,0,0,0,0,1,0.5,0,0,0,1"}, "", "Z is left out"),
-        ({"Mu": "0,0"}, "", "all are taken as actuated"),
-        ({}, "Type = 2", "Type is"),
-        ({"M": "M0,M1,M2"}, "is_floating = True", "stands still here"),
-    ],
+@with_cases(
+    "lists, line, told",
+    ({"FX": "0,FX2"}, "", "FX are left out"),
+    ({"W0": "0,0,w"}, "", "W0 are left out"),
+    ({"VP0": "0,0,1"}, "", "VP0 are left out"),
+    ({"eta": "0,1"}, "", "eta are left out"),
+    ({"Z": "1,0,0,0,0,1,0,0,0,0,1,0.5,0,0,0,1"}, "", "Z is left out"),
+    ({"Mu": "0,0"}, "", "all are taken as actuated"),
+    ({}, "Type = 2", "Type is"),
+    ({"M": "M0,M1,M2"}, "is_floating = True", "stands still here"),
 )
 def test_what_is_not_carried_over_is_told(lists, line, told):
     basis = {"Ant": "0,1", "Theta": "t1,t2", "QDP": "QDP1,QDP2", "WP0": "0,0.0,0"}
@@ -214,22 +225,20 @@ def test_variables_are_those_of_the_rows(theta):
     assert not robot.symbols.keys() - {"g"}
 
 
-@pytest.mark.parametrize(
-    ("lists", "gravity"),
-    [
-        ({"G": "0,0,9.81"}, [0, 0, 9.81]),
-        ({"G": "0,-9.8,0"}, [0, -9.8, 0]),
-        ({"G": "0,0,G3"}, [0, 0, -9.81]),
-        ({"G": "0,0,2*g"}, [0, 0, -9.81]),
-        ({"G": "GX,GY,GZ"}, [0, 0, -9.81]),
-        ({"G": "GX,0,-9.81"}, [0, 0, -9.81]),
-        ({"G": "g,0,0"}, [9.81, 0, 0]),
-        ({"G": "0,g*sin(a),-g*cos(a)"}, [0, 0, -9.81]),
-        ({"G": "0,0,0", "VP0": "0,0,g"}, [0, 0, -9.81]),
-        ({"G": "0,0,0"}, [0, 0, 0]),
-        ({"G": "0,0,0", "VP0": "0,0,9.81"}, [0, 0, -9.81]),
-        ({"G": "0,1.5,-3"}, [0, 1.5, -3]),
-    ],
+@with_cases(
+    "lists, gravity",
+    ({"G": "0,0,9.81"}, [0, 0, 9.81]),
+    ({"G": "0,-9.8,0"}, [0, -9.8, 0]),
+    ({"G": "0,0,G3"}, [0, 0, -9.81]),
+    ({"G": "0,0,2*g"}, [0, 0, -9.81]),
+    ({"G": "GX,GY,GZ"}, [0, 0, -9.81]),
+    ({"G": "GX,0,-9.81"}, [0, 0, -9.81]),
+    ({"G": "g,0,0"}, [9.81, 0, 0]),
+    ({"G": "0,g*sin(a),-g*cos(a)"}, [0, 0, -9.81]),
+    ({"G": "0,0,0", "VP0": "0,0,g"}, [0, 0, -9.81]),
+    ({"G": "0,0,0"}, [0, 0, 0]),
+    ({"G": "0,0,0", "VP0": "0,0,9.81"}, [0, 0, -9.81]),
+    ({"G": "0,1.5,-3"}, [0, 1.5, -3]),
 )
 def test_gravity(lists, gravity):
     """Letters stay, with stand-ins by which gravity points where the note says."""
@@ -331,18 +340,16 @@ def test_atan2_of_two_letters_is_exact():
     assert any("L1*sin(A1)" in note for note in converted.notes)
 
 
-@pytest.mark.parametrize(
-    ("gamma", "value"),
-    [
-        ("ArcTan[f, e]", lambda e, f: math.atan2(e, f)),
-        ("atan2(-e, f)", lambda e, f: math.atan2(-e, f)),
-        ("atan2(e, -f)", lambda e, f: math.atan2(e, -f)),
-        ("atan2(-e, -f)", lambda e, f: math.atan2(-e, -f)),
-        ("atan2(2*e, f)", lambda e, f: math.atan2(2 * e, f)),
-        ("ArcSin[e/(e + f)] + Pi/4", lambda e, f: math.asin(e / (e + f)) + math.pi / 4),
-        ("acos(Cos[e])", lambda e, f: e),
-        ("atan2(e, f) - atan2(f, e)", lambda e, f: math.atan2(e, f) - math.atan2(f, e)),
-    ],
+@with_cases(
+    "gamma, value",
+    ("ArcTan[f, e]", lambda e, f: math.atan2(e, f)),
+    ("atan2(-e, f)", lambda e, f: math.atan2(-e, f)),
+    ("atan2(e, -f)", lambda e, f: math.atan2(e, -f)),
+    ("atan2(-e, -f)", lambda e, f: math.atan2(-e, -f)),
+    ("atan2(2*e, f)", lambda e, f: math.atan2(2 * e, f)),
+    ("ArcSin[e/(e + f)] + Pi/4", lambda e, f: math.asin(e / (e + f)) + math.pi / 4),
+    ("acos(Cos[e])", lambda e, f: e),
+    ("atan2(e, f) - atan2(f, e)", lambda e, f: math.atan2(e, f) - math.atan2(f, e)),
 )
 def test_inverse_functions_have_their_value(gamma, value):
     lists = BOOM | {"d": "0,e,0,0,f", "gamma": f"0,0,0,0,{gamma}"}
@@ -392,7 +399,7 @@ MISTAKES = [
     ("t1,t2,t3}", "t1,t2 + atan(2*t1),t3}", "got atan(2*q1), which moves with q1; robot files"),
     ("t1,t2,t3}", "t1,t2 + acos(2),t3}", "got acos(2), which has no value at these lengths"),
     ("Ant  = {\n        0,1,2}", "", "is no SYMORO file: the list Ant is missing"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("old", "new", "told"), MISTAKES)

@@ -22,6 +22,7 @@ from modeler.robot.read import parse_robot_text
 from modeler.robot.robot import JointKind
 from tests.robot.public_robots import each_public_urdf
 from tests.robot.texts import ARM_URDF as ARM, edited
+from tests.rotation import with_cases
 
 
 def read(text: str = ARM, exact_decimals: bool = False) -> BodyTree:
@@ -263,19 +264,17 @@ def test_only_moving_bodies_without_mass_are_told():
 INERTIA = 'ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"'
 
 
-@pytest.mark.parametrize(
-    ("mass", "inertia", "told"),
-    [
-        ("0", INERTIA, "mass 0"),
-        ("-1", INERTIA, "mass -1 kg is negative"),
-        ("1", INERTIA.replace("0.001", "0"), "inertia 0"),
-        ("1", INERTIA.replace("0.001", "1"), "identity"),
-        ("1", INERTIA.replace('izz="0.001"', 'izz="0.0031"'), "0.001, 0.001, 0.0031 kg m2"),
-        ("1", INERTIA.replace('iyy="0.001"', 'iyy="-0.001"'), "negative"),
-        ("1", INERTIA, ""),
-        # 0.0014 + 0.0014 > 0.0026: within what the printed digits say.
-        ("1", INERTIA.replace('izz="0.001"', 'izz="0.003"'), ""),
-    ],
+@with_cases(
+    "mass, inertia, told",
+    ("0", INERTIA, "mass 0"),
+    ("-1", INERTIA, "mass -1 kg is negative"),
+    ("1", INERTIA.replace("0.001", "0"), "inertia 0"),
+    ("1", INERTIA.replace("0.001", "1"), "identity"),
+    ("1", INERTIA.replace('izz="0.001"', 'izz="0.0031"'), "0.001, 0.001, 0.0031 kg m2"),
+    ("1", INERTIA.replace('iyy="0.001"', 'iyy="-0.001"'), "negative"),
+    ("1", INERTIA, ""),
+    # 0.0014 + 0.0014 > 0.0026: within what the printed digits say.
+    ("1", INERTIA.replace('izz="0.001"', 'izz="0.003"'), ""),
 )
 def test_doubted_bodies_are_told(mass: str, inertia: str, told: str):
     text = edited(ARM, (INERTIA, inertia), ('mass value="0.5"', f'mass value="{mass}"'))

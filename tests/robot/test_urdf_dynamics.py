@@ -21,16 +21,17 @@ from modeler.robot.robot import Robot
 from tests.modules import loaded
 from tests.robot.poses import link_poses
 from tests.robot.public_robots import each_public_urdf, public_urdf
-from tests.rotation import ROTATING
+from tests.rotation import ROTATING, with_cases
 
 pin = pytest.importorskip("pinocchio", reason="NOT CHECKED: Pinocchio (PyPI: pin) is not installed")
 
 NOT_MOVING = "no joint of the robot moves"
-RANKED = (
-    "panda", "xarm7", "kinova", "so100", "so101", "talos_left_arm", "tiago_no_hand",
-    "allegro_right_hand", "bolt", "finger_edu", "hyq_no_sensors", "TwoDofs", "b1-z1",
-    "anymal-kinova",
-)  # fmt: skip
+RANKED = tuple(
+    """
+    panda xarm7 kinova so100 so101 talos_left_arm tiago_no_hand allegro_right_hand bolt finger_edu
+    hyq_no_sensors TwoDofs b1-z1 anymal-kinova
+""".split()
+)
 # More joints than derive in seconds: two arms, a hand of which three fingers follow others.
 LOCKED = {
     "baxter": "head_pan",
@@ -68,8 +69,10 @@ def snapped(path: Path, to: Path) -> Path:
     tree = ElementTree.parse(path)
     for joint in tree.getroot().iter("joint"):
         for tag, name, change in (
-            ("origin", "rpy", angle), ("origin", "xyz", length), ("axis", "xyz", length)
-        ):  # fmt: skip
+            ("origin", "rpy", angle),
+            ("origin", "xyz", length),
+            ("axis", "xyz", length),
+        ):
             for element in joint.findall(tag):
                 if name in element.attrib:
                     words = element.attrib[name].split()
@@ -161,13 +164,11 @@ def test_torques_and_frames_of_every_public_robot(path: Path, tmp_path: Path):
         np.testing.assert_allclose(pose, there.homogeneous, rtol=0, atol=1e-12, err_msg=link)
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "name",
-    [
-        *("double_pendulum_continuous", "ur3_robot", "z1"),
-        *(pytest.param(name, marks=pytest.mark.rotating) for name in RANKED),
-        *(pytest.param(name, marks=ROTATING) for name in LOCKED),
-    ],
+    *("double_pendulum_continuous", "ur3_robot", "z1"),
+    *(pytest.param(name, marks=pytest.mark.rotating) for name in RANKED),
+    *(pytest.param(name, marks=ROTATING) for name in LOCKED),
 )
 def test_base_parameters_are_as_many_as_the_rank(name: str, tmp_path: Path):
     """The rank of Pinocchio's regressor on random motion, joints that follow taken out by hand."""

@@ -10,6 +10,7 @@ from modeler.formats.tree_cuts import cut_tree
 from modeler.formats.tree_text import convert_tree
 from modeler.formats.urdf import read_urdf_tree
 from modeler.robot.read import parse_robot_text
+from tests.rotation import with_cases
 
 ARM = """<robot name="arm"><link name="base"/><link name="a"><inertial><origin xyz="0.1 0 0.02"/>
 <mass value="1"/><inertia ixx="0.02" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.02"/></inertial>
@@ -28,13 +29,11 @@ def convert(limit: str, kind: str = "revolute", more: str = ""):
 RANGE = 'lower="-1" upper="1" velocity="2"'
 
 
-@pytest.mark.parametrize(
-    ("limit", "expected"),
-    [
-        (f'{RANGE} acceleration="1.5" deceleration="1.0" jerk="20"', 1.0),
-        (f'{RANGE} deceleration="9"', 9.0),
-        (f'{RANGE} acceleration="inf" drake:acceleration="3"', 3.0),
-    ],
+@with_cases(
+    "limit, expected",
+    (f'{RANGE} acceleration="1.5" deceleration="1.0" jerk="20"', 1.0),
+    (f'{RANGE} deceleration="9"', 9.0),
+    (f'{RANGE} acceleration="inf" drake:acceleration="3"', 3.0),
 )
 def test_acceleration_that_is_stated_is_the_limit(limit: str, expected: float) -> None:
     """The smaller of both; the text claims nothing else, and a jerk is reported."""
@@ -63,16 +62,14 @@ def test_a_speed_that_is_none_is_told_as_assumed(velocity: str) -> None:
     assert any("0 or inf" in note for note in made.notes) == bool(velocity)
 
 
-@pytest.mark.parametrize(
-    ("limit", "kind", "told", "stated"),
-    [
-        ('lower="1" upper="-1" velocity="2"', "revolute", "leave no range", False),
-        ('lower="-inf" upper="1" velocity="2"', "revolute", "infinite on one side", True),
-        ('lower="-inf" upper="inf" velocity="2"', "revolute", "range -pi to pi", True),
-        ('lower="-inf" upper="inf" velocity="2"', "prismatic", "", False),
-        ('velocity="2"', "continuous", "range -pi to pi", True),
-        ('lower="-1" upper="1" velocity="2"', "continuous", "continuous has no range", True),
-    ],
+@with_cases(
+    "limit, kind, told, stated",
+    ('lower="1" upper="-1" velocity="2"', "revolute", "leave no range", False),
+    ('lower="-inf" upper="1" velocity="2"', "revolute", "infinite on one side", True),
+    ('lower="-inf" upper="inf" velocity="2"', "revolute", "range -pi to pi", True),
+    ('lower="-inf" upper="inf" velocity="2"', "prismatic", "", False),
+    ('velocity="2"', "continuous", "range -pi to pi", True),
+    ('lower="-1" upper="1" velocity="2"', "continuous", "continuous has no range", True),
 )
 def test_ranges_that_are_none_are_told(limit: str, kind: str, told: str, stated: bool) -> None:
     """What leaves no range is no limit; an open one is -pi to pi, and the line says so."""

@@ -13,6 +13,7 @@ from modeler.formats.urdf import read_urdf_tree
 from modeler.robot.read import parse_robot_text
 from tests.elementary_motions import frames
 from tests.robot.poses import origin_pose
+from tests.rotation import with_cases
 
 BODY = (
     '<link name="%s"><inertial><origin xyz="0.1 0.02 -0.03"/><mass value="1"/><inertia ixx="0.02" '
@@ -65,13 +66,11 @@ def quaternion(roll: float, pitch: float, yaw: float) -> str:
 CHAIN = joint("j3", "b", "c", '<origin xyz="0 0 0.2"/>')
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "angles",
-    [
-        (np.pi / 2, 0, -np.pi / 6),
-        (np.pi, np.pi / 4, 0),
-        *np.random.default_rng().uniform(-1.2, 1.2, (1, 3)).tolist(),
-    ],
+    (np.pi / 2, 0, -np.pi / 6),
+    (np.pi, np.pi / 4, 0),
+    *np.random.default_rng().uniform(-1.2, 1.2, (1, 3)).tolist(),
 )
 def test_a_quaternion_says_what_angles_say(angles) -> None:
     """In joints and in inertials: the same table and frames, and the same masses."""
@@ -198,16 +197,17 @@ def test_loops_of_all_tools_are_one_loop(tmp_path) -> None:
 DRIVES = '<transmission name="t"><joint name="{}"/><actuator name="m"/></transmission>'.format
 
 
-@pytest.mark.parametrize(
-    ("more", "driven"),
-    [
-        (DRIVES("jc"), "3"),
-        ('<ros2_control name="r"><joint name="jc"><command_interface name="effort"/></joint>'
-         '<joint name="ja"><state_interface name="position"/></joint></ros2_control>', "3"),
-        ("", "1"),
-        ("independent", "3"),
-    ],
-)  # fmt: skip
+@with_cases(
+    "more, driven",
+    (DRIVES("jc"), "3"),
+    (
+        '<ros2_control name="r"><joint name="jc"><command_interface name="effort"/></joint>'
+        '<joint name="ja"><state_interface name="position"/></joint></ros2_control>',
+        "3",
+    ),
+    ("", "1"),
+    ("independent", "3"),
+)
 def test_motors_of_a_loop_are_those_that_the_file_names(more: str, driven: str) -> None:
     """Or those that move on their own; the posture that a simulator starts from is [home]."""
     at = '<gazebo reference="jb"><initial_joint_position>0.4</initial_joint_position></gazebo>'
@@ -232,8 +232,11 @@ def test_frames_that_meet_stand_where_the_file_has_them(kind: str, seed: int) ->
         for k, link in ((1, "b"), (2, "c"))
     )
     loop = f'<loop name="x" type="{kind}">{ends}<axis xyz="{" ".join(map(str, axis))}"/></loop>'
-    chain = (TREE[0], joint("j2", "a", "b", '<origin xyz="0 0.1 0.3" rpy="1 0 0"/>'), TREE[2]
-             .replace('<parent link="b"/>', '<parent link="base"/>'))  # fmt: skip
+    chain = (
+        TREE[0],
+        joint("j2", "a", "b", '<origin xyz="0 0.1 0.3" rpy="1 0 0"/>'),
+        TREE[2].replace('<parent link="b"/>', '<parent link="base"/>'),
+    )
     tree = read(urdf(*chain, loop, *map(DRIVES, ("j1", "j2", "j3"))))
     robot = parse_robot_text(convert_tree(tree, "arm.urdf").text, "arm.toml")
     q = dict(zip(("j1", "j2", "j3"), rng.uniform(-2, 2, 3), strict=True))
@@ -267,18 +270,19 @@ ROTOR = "<motorInertia>1e-4</motorInertia>"
 MOTOR = f'<actuator name="m">%s{ROTOR}</actuator>'
 
 
-@pytest.mark.parametrize(
-    ("inner", "expected"),
-    [
-        (f'<joint name="j1">{GEAR % 1}</joint>{MOTOR % (GEAR % 100)}', 1.0),
-        (f'{MOTOR % (GEAR % 100)}<joint name="j1">{GEAR % 1}</joint>', 1.0),
-        (f'{MOTOR % ""}<joint name="j1">{GEAR % -50}</joint>', 0.25),
-        (f'{MOTOR % ""}<joint name="j1"/>{GEAR % 10}', 0.01),
-        (f'{MOTOR % ""}<joint name="j1"/>', 1e-4),
-        ('<joint name="j1"/><actuator name="m"><drake:gear_ratio value="20"/>'
-         '<drake:rotor_inertia value="1e-3"/></actuator>', 0.4),
-    ],
-)  # fmt: skip
+@with_cases(
+    "inner, expected",
+    (f'<joint name="j1">{GEAR % 1}</joint>{MOTOR % (GEAR % 100)}', 1.0),
+    (f'{MOTOR % (GEAR % 100)}<joint name="j1">{GEAR % 1}</joint>', 1.0),
+    (f'{MOTOR % ""}<joint name="j1">{GEAR % -50}</joint>', 0.25),
+    (f'{MOTOR % ""}<joint name="j1"/>{GEAR % 10}', 0.01),
+    (f'{MOTOR % ""}<joint name="j1"/>', 1e-4),
+    (
+        '<joint name="j1"/><actuator name="m"><drake:gear_ratio value="20"/>'
+        '<drake:rotor_inertia value="1e-3"/></actuator>',
+        0.4,
+    ),
+)
 def test_gears_of_actuator_and_joint_are_their_own(inner: str, expected: float) -> None:
     gear = f'<transmission name="t"><type>x/SimpleTransmission</type>{inner}</transmission>'
     text = urdf(*TREE, gear)
@@ -325,33 +329,39 @@ TWO_WAYS = '<origin rpy="0 0 1" quat_xyzw="0 0 0 1"/>'
 NO_WAY = '<origin quat_xyzw="0 0 0 0"/>'
 
 
-@pytest.mark.parametrize(
-    ("parts", "message"),
-    [
-        ((TREE[0], joint("j2", "a", "b", TWO_WAYS), CHAIN),
-         "line 1: .*<origin>.* rpy and quat_xyzw; keep the one"),
-        ((TREE[0], joint("j2", "a", "b", NO_WAY), CHAIN), 'a quaternion such as "0 0 0 1"'),
-        ((TREE[0], joint("j2", "base", "b", MIMIC % "0.2"), TREE[2], PLUGIN),
-         'plugin "m": joint "j2" follows in two'),
-        ((*TREE, PLUGIN.replace("j2", "jj2")), 'there is no joint "jj2"'),
-        ((*TREE, PLUGIN.replace("-1.5", "fast")), 'got "fast"; expected a number'),
-        ((*TREE, COUPLING.replace('link="a"', 'link="c"')),
-         "expected two links whose joints stand on one link"),
-        ((*TREE, COUPLING.replace("ratio", "gear")), "ratio is missing"),
-        ((*TREE, '<joint_constraint name="t"/>'), "<joint_constraint> ties joints in a way"),
-        ((*FOUR, CLOSED["plus"] % "gear"), 'got "gear"; expected a joint that closes a loop'),
-        ((*FOUR, CLOSED["gazebo"] % "screw"), 'joint "pin", type: got "screw"'),
-        ((*FOUR, CLOSED["plus"].replace('"c"', '"d"') % "ball"), 'there is no link "d"'),
-        ((*FOUR, CLOSED["links"].replace('"b"', '""') % "ball"), "link is missing"),
-        ((*FOUR, CLOSED["plus"].replace(AXIS, "") % "revolute"), "<axis>: is missing"),
-        ((*FOUR, CLOSED["gazebo"].replace("<pose>", '<pose relative_to="b">') % "ball"),
-         "another frame"),
-        ((*FOUR, '<drake:linear_bushing_rpy name="f"/>'), "<drake:linear_bushing_rpy> is a force"),
-        ((*FOUR, '<gazebo><link name="w"/></gazebo>'), "is a body of Gazebo alone"),
-        ((SPRING, *TREE[1:], GAZEBO.replace("20", "30")), 'joint "j1" has two springs that differ'),
-        ((*TREE, GAZEBO.replace("20", "stiff")), 'got "stiff"'),
-    ],
-)  # fmt: skip
+@with_cases(
+    "parts, message",
+    (
+        (TREE[0], joint("j2", "a", "b", TWO_WAYS), CHAIN),
+        "line 1: .*<origin>.* rpy and quat_xyzw; keep the one",
+    ),
+    ((TREE[0], joint("j2", "a", "b", NO_WAY), CHAIN), 'a quaternion such as "0 0 0 1"'),
+    (
+        (TREE[0], joint("j2", "base", "b", MIMIC % "0.2"), TREE[2], PLUGIN),
+        'plugin "m": joint "j2" follows in two',
+    ),
+    ((*TREE, PLUGIN.replace("j2", "jj2")), 'there is no joint "jj2"'),
+    ((*TREE, PLUGIN.replace("-1.5", "fast")), 'got "fast"; expected a number'),
+    (
+        (*TREE, COUPLING.replace('link="a"', 'link="c"')),
+        "expected two links whose joints stand on one link",
+    ),
+    ((*TREE, COUPLING.replace("ratio", "gear")), "ratio is missing"),
+    ((*TREE, '<joint_constraint name="t"/>'), "<joint_constraint> ties joints in a way"),
+    ((*FOUR, CLOSED["plus"] % "gear"), 'got "gear"; expected a joint that closes a loop'),
+    ((*FOUR, CLOSED["gazebo"] % "screw"), 'joint "pin", type: got "screw"'),
+    ((*FOUR, CLOSED["plus"].replace('"c"', '"d"') % "ball"), 'there is no link "d"'),
+    ((*FOUR, CLOSED["links"].replace('"b"', '""') % "ball"), "link is missing"),
+    ((*FOUR, CLOSED["plus"].replace(AXIS, "") % "revolute"), "<axis>: is missing"),
+    (
+        (*FOUR, CLOSED["gazebo"].replace("<pose>", '<pose relative_to="b">') % "ball"),
+        "another frame",
+    ),
+    ((*FOUR, '<drake:linear_bushing_rpy name="f"/>'), "<drake:linear_bushing_rpy> is a force"),
+    ((*FOUR, '<gazebo><link name="w"/></gazebo>'), "is a body of Gazebo alone"),
+    ((SPRING, *TREE[1:], GAZEBO.replace("20", "30")), 'joint "j1" has two springs that differ'),
+    ((*TREE, GAZEBO.replace("20", "stiff")), 'got "stiff"'),
+)
 def test_what_is_not_plain_is_refused(parts: tuple[str, ...], message: str) -> None:
     with pytest.raises(RobotError, match=message):
         read(urdf(*parts))

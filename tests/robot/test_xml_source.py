@@ -9,6 +9,7 @@ import pytest
 from modeler.core.errors import RobotError
 from modeler.formats.xml_source import parse_xml, replace_spans
 from tests.robot.public_robots import each_public_urdf
+from tests.rotation import with_cases
 
 ODD = (
     b'\xef\xbb\xbf<?xml version="1.0" encoding="utf-8"?>\r\n<!-- <mass value="1"/> -->\n'
@@ -71,8 +72,11 @@ def test_public_files_are_read_as_the_standard_library_reads_them(path: Path):
             }
     rng = np.random.default_rng(len(data))
     spans = [(e, name) for e in ours for name in e.spans if not name.startswith("xmlns")]
-    chosen = [spans[i] for i in rng.choice(len(spans), min(40, len(spans)), replace=False)] \
-        if spans else []  # fmt: skip
+    chosen = (
+        [spans[i] for i in rng.choice(len(spans), min(40, len(spans)), replace=False)]
+        if spans
+        else []
+    )
     made = replace_spans(data, {element.spans[name]: "0.125" for element, name in chosen})
     changed = {id(element): {} for element, _ in chosen}
     for element, name in chosen:
@@ -100,20 +104,18 @@ def test_what_ros_reads_is_read_with_its_lines_and_bytes():
     assert parse_xml(comment, "arm.urdf").text == "\xe9"
 
 
-@pytest.mark.parametrize(
-    ("data", "told"),
-    [
-        (b"  \n", "is empty"),
-        ("<a/>".encode("utf-16"), "UTF-16"),
-        (b'\n<?xml version="1.0" encoding="koi8-r"?><a/>', 'line 2: encoding="koi8-r"; save'),
-        (b"<a>\n<!-- open", "line 2: .*unclosed token; <a> of line 1 is open"),
-        (b"<a>\n<b c='\xff'/></a>", "line 2: byte 10 is not UTF-8"),
-        (b"<a>\n<b>\n</a>", "line 3: .*mismatched tag; <b> of line 2 is open"),
-        (b"<a b=1/>", "line 1: not well-formed XML, column 6: invalid token"),
-        (b"<a/><b/>", "junk after document element"),
-        (b"<!DOCTYPE a>\n<a/>", "line 1: <!DOCTYPE> and its entities are not read"),
-        (b"<a>" * 300, "more than 200000 elements, or than 256 inside each other"),
-    ],
+@with_cases(
+    "data, told",
+    (b"  \n", "is empty"),
+    ("<a/>".encode("utf-16"), "UTF-16"),
+    (b'\n<?xml version="1.0" encoding="koi8-r"?><a/>', 'line 2: encoding="koi8-r"; save'),
+    (b"<a>\n<!-- open", "line 2: .*unclosed token; <a> of line 1 is open"),
+    (b"<a>\n<b c='\xff'/></a>", "line 2: byte 10 is not UTF-8"),
+    (b"<a>\n<b>\n</a>", "line 3: .*mismatched tag; <b> of line 2 is open"),
+    (b"<a b=1/>", "line 1: not well-formed XML, column 6: invalid token"),
+    (b"<a/><b/>", "junk after document element"),
+    (b"<!DOCTYPE a>\n<a/>", "line 1: <!DOCTYPE> and its entities are not read"),
+    (b"<a>" * 300, "more than 200000 elements, or than 256 inside each other"),
 )
 def test_what_is_refused_is_told_in_one_line(data: bytes, told: str):
     with pytest.raises(RobotError, match=told) as error:

@@ -130,13 +130,21 @@ def mjcf(name: str, links: Sequence[Link], step: float = 0.0005) -> str:
         pad += "  "
     motors = [f'    <motor name="{link.joint}" joint="{link.joint}"/>' for link in links]
     return "\n".join(
-        [*head, *body, *tail, "  </worldbody>", "  <actuator>", *motors, "  </actuator>",
-         "</mujoco>", ""]
-    )  # fmt: skip
+        [
+            *head,
+            *body,
+            *tail,
+            "  </worldbody>",
+            "  <actuator>",
+            *motors,
+            "  </actuator>",
+            "</mujoco>",
+            "",
+        ]
+    )
 
 
-def logged(truth: str, believed: str, links: Sequence[Link], seed: int, seconds: float,
-           rate: float = 1000.0) -> dict[str, np.ndarray]:  # fmt: skip
+def logged(truth, believed, links, seed, seconds, rate=1000.0):
     """A log of an MJCF under computed torques of another, on a sum of sines within its ranges.
 
     Torques are held between the rows, as a drive holds them. By joints' names in any order:
@@ -183,10 +191,13 @@ def sines(links: Sequence[Link], seed: int, time: np.ndarray) -> np.ndarray:
         weights = draw.normal(size=5) / np.arange(1, 6) ** 0.5
         phases = draw.uniform(0, 2 * np.pi, 5)
         turn = frequencies * time[:, None] + phases
-        own = np.stack([
-            np.sin(turn) @ weights, np.cos(turn) @ (weights * frequencies),
-            -np.sin(turn) @ (weights * frequencies**2),
-        ])  # fmt: skip
+        own = np.stack(
+            [
+                np.sin(turn) @ weights,
+                np.cos(turn) @ (weights * frequencies),
+                -np.sin(turn) @ (weights * frequencies**2),
+            ]
+        )
         low, high = link.range
         room = 0.45 * (high - low) / np.ptp(own[0])
         fast = 0.8 * link.speed / np.abs(own[1]).max()
@@ -196,9 +207,7 @@ def sines(links: Sequence[Link], seed: int, time: np.ndarray) -> np.ndarray:
     return found
 
 
-def followed(
-    xml: str, links: Sequence[Link], log: dict[str, np.ndarray], seconds: float = 1.0
-) -> np.ndarray:
+def followed(xml, links, log, seconds=1.0):
     """(windows, joints) rms distance of positions, each window from the logged state on.
 
     MuJoCo runs the file under the logged torques.
@@ -207,8 +216,10 @@ def followed(
 
     model = mujoco.MjModel.from_xml_string(xml)
     data = mujoco.MjData(model)
-    q, tau = (np.column_stack([log[f"{link.joint}_{kind}"] for link in links])
-              for kind in ("position", "effort"))  # fmt: skip
+    q, tau = (
+        np.column_stack([log[f"{link.joint}_{kind}"] for link in links])
+        for kind in ("position", "effort")
+    )
     step = float(np.median(np.diff(log["time"])))
     every, length = round(step / model.opt.timestep), round(seconds / step)
     qd = savgol_filter(q, 21, 3, deriv=1, delta=step, axis=0)

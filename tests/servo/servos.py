@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
@@ -70,9 +69,7 @@ def recorded(robot: Robot, servo: Servo, goals: np.ndarray, fps: float) -> Frame
     return Frames(np.arange(len(goals)) / fps, goals, state, duty)
 
 
-def write_dataset(
-    folder: Path, episodes: list[Frames], motors: list[str], fps: float, load: bool = True
-) -> Path:
+def write_dataset(folder, episodes, motors, fps, load=True):
     """A LeRobot data set (v2.1): degrees, and loads in units of 0.1 %, as the servos show them."""
     tables, index = [], 0
     names = [f"{motor}.pos" for motor in motors]

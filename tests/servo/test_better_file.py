@@ -55,28 +55,40 @@ def test_a_spoilt_file_comes_back_better(tmp_path, monkeypatch, capsys, seed):
     # MuJoCo's friction bends near rest: halves of the motion may differ by more than their noise.
     valid = re.search(
         r"\nValid for torque prediction(: | on similar motions only: )"
-        r"cross-validated error at most ([\d.]+) % on every joint\.(.*)", told.out
-    )  # fmt: skip
+        r"cross-validated error at most ([\d.]+) % on every joint\.(.*)",
+        told.out,
+    )
     assert valid and float(valid[2]) < 0.5, (seed, told.out)
     assert valid[1] == ": " or "between samples of low" in valid[3], (seed, valid[3])
     assert "added to the joints: rotor_inertia, offset, of which the file says nothing" in told.err
-    assert main(["export", "arm.model.json", "--to", "mjcf", "--like", "arm.xml",
-                 "--out", "better.xml"]) == 0  # fmt: skip
+    assert (
+        main(
+            ["export", "arm.model.json", "--to", "mjcf", "--like", "arm.xml", "--out", "better.xml"]
+        )
+        == 0
+    )
     better = Path("better.xml").read_text()
     assert numbers_of(better) == numbers_of(mjcf("arm", wrong))
     assert "<!-- a comment that stays -->" in better
     capsys.readouterr()
     before, after = (followed(xml, ARM7, judge) for xml in (mjcf("arm", wrong), better))
     floor = followed(mjcf("arm", ARM7), ARM7, judge)
-    print(f"seed {seed}: {rms(before):.4f} rad before, {rms(after):.4f} after, of the true file "
-          f"{rms(floor):.4f}; {rms(before) / rms(after):.0f} times closer")  # fmt: skip
+    print(
+        f"seed {seed}: {rms(before):.4f} rad before, {rms(after):.4f} after, of the true file "
+        f"{rms(floor):.4f}; {rms(before) / rms(after):.0f} times closer"
+    )
     assert rms(after) < rms(before) / 10.0, seed
     joints = np.sqrt(np.mean(before**2, axis=0) / np.mean(after**2, axis=0))
     assert joints.min() > 5.0, (seed, joints)
     assert main(["export", "arm.model.json", "--like", "arm.urdf", "--out", "better.urdf"]) == 0
     told = capsys.readouterr().out
-    assert len(re.findall(r"URDF cannot hold rotor_inertia of joint \d \(Ia\d = 0\.\d+\), about "
-                          r"[\d.]+ % of the torque", told)) == len(ARM7)  # fmt: skip
+    assert len(
+        re.findall(
+            r"URDF cannot hold rotor_inertia of joint \d \(Ia\d = 0\.\d+\), about "
+            r"[\d.]+ % of the torque",
+            told,
+        )
+    ) == len(ARM7)
     urdfs = Path("arm.urdf").read_text(), Path("better.urdf").read_text()
     assert numbers_of(urdfs[0]) == numbers_of(urdfs[1])
     assert urdfs[0] != urdfs[1]

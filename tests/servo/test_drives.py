@@ -9,6 +9,7 @@ from modeler.core.errors import DataError, RobotError
 from modeler.estimation import check_currents
 from modeler.regression import Processing, observe
 from modeler.robot import parse_robot_text, replace_drive_gains
+from tests.rotation import with_cases
 
 VOLTAGE, RESISTANCE, K_E, GAIN = 11.1, 3.7, 0.9, 0.8
 DRIVE = f"{{voltage = {VOLTAGE}, resistance = {RESISTANCE}, k_e = {K_E}, gain = {GAIN}}}"
@@ -124,20 +125,18 @@ def test_gains_are_put_where_they_stand():
     assert "[drive_gains]" not in only.text
 
 
-@pytest.mark.parametrize(
-    ("drives", "told"),
-    [
-        ("3 = {gain = 1}", 'there is no moving joint "3"'),
-        ("1 = 2.0", "expected a table, as in [drives] 1 = {voltage"),
-        ("1 = {gain = 1, ohm = 2}", 'unknown key "ohm"'),
-        ("1 = {voltage = 12, resistance = 2}", "gain is missing; write joint torque per unit"),
-        ("1 = {gain = 1, voltage = 12}", "resistance: got 0; expected a number above 0"),
-        ("1 = {gain = 1, k_e = 2}", "voltage: got 0; expected a number above 0"),
-        ("1 = {gain = 1, voltage = 9, resistance = 2, k_e = -1}", "k_e: got -1; expected the sign"),
-        ("1 = {gain = nan}", "expected a finite number"),
-        ("1 = {gain = 1}\n[drive_gains]\n1 = 2.0", "stands in [drive_gains] too"),
-    ],
-)  # fmt: skip
+@with_cases(
+    "drives, told",
+    ("3 = {gain = 1}", 'there is no moving joint "3"'),
+    ("1 = 2.0", "expected a table, as in [drives] 1 = {voltage"),
+    ("1 = {gain = 1, ohm = 2}", 'unknown key "ohm"'),
+    ("1 = {voltage = 12, resistance = 2}", "gain is missing; write joint torque per unit"),
+    ("1 = {gain = 1, voltage = 12}", "resistance: got 0; expected a number above 0"),
+    ("1 = {gain = 1, k_e = 2}", "voltage: got 0; expected a number above 0"),
+    ("1 = {gain = 1, voltage = 9, resistance = 2, k_e = -1}", "k_e: got -1; expected the sign"),
+    ("1 = {gain = nan}", "expected a finite number"),
+    ("1 = {gain = 1}\n[drive_gains]\n1 = 2.0", "stands in [drive_gains] too"),
+)
 def test_what_is_refused(drives, told):
     with pytest.raises(RobotError) as caught:
         robot(drives)

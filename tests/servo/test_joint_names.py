@@ -6,6 +6,7 @@ import pytest
 from modeler.api import compile_model, derive, generate, inspect_log, load, read_logs
 from modeler.logs.guess import split_label
 from modeler.robot import parse_robot_text
+from tests.rotation import with_cases
 
 from .arms import ARM7, urdf
 
@@ -31,15 +32,13 @@ def columns(q, tau, seed=None):
     return found, values
 
 
-@pytest.mark.parametrize(
-    ("q", "tau"),
-    [
-        ("{}", "{}_effort"),
-        ("position/{}", "effort/{}"),
-        ("joint_states.position[{}]", "joint_states.effort[{}]"),
-        ("state[{}.pos]", "state[{}.torque]"),
-        ("q_{}", "{} torque [N m]"),
-    ],
+@with_cases(
+    "q, tau",
+    ("{}", "{}_effort"),
+    ("position/{}", "effort/{}"),
+    ("joint_states.position[{}]", "joint_states.effort[{}]"),
+    ("state[{}.pos]", "state[{}.torque]"),
+    ("q_{}", "{} torque [N m]"),
 )
 def test_columns_in_any_order_go_to_their_joints(arm, q, tau):
     given, values = columns(q, tau)

@@ -76,8 +76,9 @@ def test_a_data_set_tells_armature_friction_and_damping(arm, tmp_path, fps):
 
 def test_without_k_e_what_the_motor_induces_is_damping(arm, tmp_path):
     folder = write_dataset(tmp_path / "set", list(episodes(50.0, 1)), MOTORS, 50.0)
-    joints = (dataclasses.replace(j, drive=dataclasses.replace(j.drive, k_e=0.0))
-              for j in arm.spec.joints)  # fmt: skip
+    joints = (
+        dataclasses.replace(j, drive=dataclasses.replace(j.drive, k_e=0.0)) for j in arm.spec.joints
+    )
     spec = dataclasses.replace(arm.spec, joints=tuple(joints))
     log = read_mapped_log(str(folder), spec, build_log_maps(arm, [folder], MAPPING)[0])
     result = identify(observe(arm, [log]), "weighted", arm)

@@ -112,8 +112,13 @@ rows = [["L", "P", "0e", "{kind}"]]
         loop = compute_gaps(skeleton, values)[0]
         return loop.distance, loop.angle
 
-    allowed = {"universal": [], "cylindrical": ["Pz", "P"], "prismatic": ["Pz"],
-               "planar": ["Px", "Py", "P"], "rigid": []}[kind]  # fmt: skip
+    allowed = {
+        "universal": [],
+        "cylindrical": ["Pz", "P"],
+        "prismatic": ["Pz"],
+        "planar": ["Px", "Py", "P"],
+        "rigid": [],
+    }[kind]
     assert gap() == pytest.approx((0.0, 0.0), abs=1e-12)
     for name in set(skeleton.free) - {"1"}:
         if kind == "universal" and name in ("P", "Pb"):

@@ -2,10 +2,7 @@
 
 import dataclasses
 
-import numpy as np
-
 from modeler.robot.robot import Robot
-from modeler.simulation import PlantParameters
 from tests.oracles.complex_step import Oracle
 from tests.robots import LOOPED, TIED, kinds_first, one_always
 
@@ -19,9 +16,7 @@ def without_effects(source: Robot) -> Robot:
     return dataclasses.replace(source, effects=kept)
 
 
-def energies(
-    source: Robot, parameters: PlantParameters, v: np.ndarray, vd: np.ndarray
-) -> np.ndarray:
+def energies(source, parameters, v, vd):
     """(n,) T + U, of positions and speeds (n, moving) of all joints of the tree."""
     names = [joint.name for joint in source.moving_joints]
     free = [names.index(joint.name) for joint in source.free_joints]

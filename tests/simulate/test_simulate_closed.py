@@ -12,20 +12,14 @@ from modeler.core.errors import DataError, RobotError
 from modeler.robot.read import parse_robot_text, read_robot
 from modeler.simulation import (
     SimulationSettings,
+    closing,
     collect_motion_limits,
     draw_plant_parameters,
     simulate,
 )
-from modeler.simulation.closing import (
-    _is_same_mode,
-    build_constraints,
-    compute_closed_postures,
-    compute_rates,
-    compute_tree_map,
-    evaluate_samples,
-)
 from tests.modules import compiled, module
 from tests.robot_texts import CRANK, robot
+from tests.rotation import with_cases
 
 IDEAL = SimulationSettings(
     duration=1.5, rate=400, encoder_counts=0, linear_resolution=0, torque_noise=0
@@ -36,11 +30,11 @@ IDEAL = SimulationSettings(
 def test_loops_stay_closed_and_rates_are_those_of_the_positions(name):
     source, rate = read_robot(name), 2000.0
     truth = simulate(source, dataclasses.replace(IDEAL, rate=rate, duration=1.0)).truth
-    constraints = build_constraints(source)
-    v = compute_closed_postures(source, constraints, truth.q)
+    constraints = closing.build_constraints(source)
+    v = closing.compute_closed_postures(source, constraints, truth.q)
     assert np.array_equal(v[:, constraints.coordinate_rows], truth.q)
-    assert np.abs(evaluate_samples(constraints.residual, v)).max() < 1e-10
-    vd, vdd = compute_rates(constraints, v, truth.qd, truth.qdd)
+    assert np.abs(closing.evaluate_samples(constraints.residual, v)).max() < 1e-10
+    vd, vdd = closing.compute_rates(constraints, v, truth.qd, truth.qdd)
     for low, high in ((v, vd), (vd, vdd)):
         difference = (low[2:] - low[:-2]) * rate / 2
         # The jerk jumps where a move begins or ends.
@@ -77,7 +71,7 @@ def test_relations_are_kept_by_the_controlled_robot(name):
     assert np.all(np.sqrt(np.mean(truth.tau[:, log.driven] ** 2, axis=0)) > 0)
     chi = np.array([truth.parameters[column.name] for column in module(name).base.columns])
     tau = c.inverse_dynamics(truth.q, truth.qd, truth.qdd, c.base_parameters(chi))
-    turns, _ = compute_tree_map(source)
+    turns, _ = closing.compute_tree_map(source)
     couplings = [
         [row.get(j.name, 0.0) for j in source.free_joints] for row in source.coupling.values()
     ]
@@ -102,7 +96,7 @@ def test_relations_of_relations():
     q5 = "-q4 + q1 + pi"
     """
     source = parse_robot_text(re.sub(r"^ {4}", "", text, flags=re.M), "chain")
-    turns, offset = compute_tree_map(source)
+    turns, offset = closing.compute_tree_map(source)
     q1, q4 = 0.3, -0.7
     q5 = -q4 + q1 + np.pi
     q3 = q5 / 2 + 0.4
@@ -168,13 +162,22 @@ LOOSE = CRANK.replace('["3", "0"', '["4", "1", 0, 0, 0, 0, 0.2, "q4", 0],\n  ["3
 SHORT_ROD = CRANK.replace("L = 0.35", "L = 0.09").replace('q1 = "pi/2"', "q1 = 0.5")
 SHORT_ROD = SHORT_ROD.replace("q2 = -1.86", "q2 = -1.1").replace("q3 = 0.33", "q3 = 0.16")
 MISTAKES = [
-    (robot(CRANK.replace("L = 0.35", "L = 0.095")), RobotError,
-     r"loops of crank do not close at \[home\]; state values near a closed posture"),
-    (robot(SHORT_ROD, limits="1 = [1.2, 1.4, 2, 8]"), DataError,
-     r"no motion of joints 1 of crank keeps .* around \[home\]"),
-    (robot(LOOSE), RobotError,
-     r"joints 4 of crank can move at \[home\] with the actuated joints locked; actuate one"),
-]  # fmt: skip
+    (
+        robot(CRANK.replace("L = 0.35", "L = 0.095")),
+        RobotError,
+        r"loops of crank do not close at \[home\]; state values near a closed posture",
+    ),
+    (
+        robot(SHORT_ROD, limits="1 = [1.2, 1.4, 2, 8]"),
+        DataError,
+        r"no motion of joints 1 of crank keeps .* around \[home\]",
+    ),
+    (
+        robot(LOOSE),
+        RobotError,
+        r"joints 4 of crank can move at \[home\] with the actuated joints locked; actuate one",
+    ),
+]
 
 
 @pytest.mark.parametrize(("source", "error", "message"), MISTAKES)
@@ -186,9 +189,9 @@ def test_mistakes(source, error, message):
 def test_the_assembly_mode_is_kept_where_modes_meet():
     """Rod shorter than crank: the slider's two places meet where R sin(q1) = L, and end there."""
     source = robot(SHORT_ROD, limits="1 = [0.5, 1.1, 2, 8]")
-    constraints = build_constraints(source)
+    constraints = closing.build_constraints(source)
     q = np.linspace(0.5, np.arcsin(0.9) - 1e-3, 50)
-    right = compute_closed_postures(source, constraints, q[:, None])
+    right = closing.compute_closed_postures(source, constraints, q[:, None])
     rod = -np.arcsin(0.1 * np.sin(q) / 0.09)
     np.testing.assert_allclose(right[:, 1], rod - q, atol=1e-9)
     np.testing.assert_allclose(right[:, 2], 0.1 * np.cos(q) + 0.09 * np.cos(rod), atol=1e-9)
@@ -196,10 +199,10 @@ def test_the_assembly_mode_is_kept_where_modes_meet():
     left[1:] = -np.pi - rod[-1] - q[-1], 0.1 * np.cos(q[-1]) - 0.09 * np.cos(rod[-1])
     assert np.abs(constraints.residual(left).full()).max() < 1e-9
     assert np.abs(left - right[-1]).max() < 0.2  # near, and another mode all the same
-    assert not _is_same_mode(constraints, right[-1], left)
-    assert _is_same_mode(constraints, right[-2], right[-1])
+    assert not closing._is_same_mode(constraints, right[-1], left)
+    assert closing._is_same_mode(constraints, right[-2], right[-1])
     with pytest.raises(DataError, match=r"do not close at sample \d+, joints 1 at 1\.\d+; shrink"):
-        compute_closed_postures(source, constraints, np.linspace(0.5, 1.5, 50)[:, None])
+        closing.compute_closed_postures(source, constraints, np.linspace(0.5, 1.5, 50)[:, None])
 
 
 def test_moments_without_mass_are_refused():
@@ -212,12 +215,10 @@ def test_moments_without_mass_are_refused():
         simulate(source, IDEAL)
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"motion": "fast"}, "motion: got fast; expected one of exciting, point-to-po"),
-        ({"motion": "point-to-point", "duration": 0.05}, "0.05 s, too short for a move and back"),
-    ],
+@with_cases(
+    "change, message",
+    ({"motion": "fast"}, "motion: got fast; expected one of exciting, point-to-po"),
+    ({"motion": "point-to-point", "duration": 0.05}, "0.05 s, too short for a move and back"),
 )
 def test_motions_by_name(change, message):
     with pytest.raises(DataError, match=message):

@@ -6,25 +6,20 @@ import numpy as np
 import pytest
 from closed_robots import LOOPS, without_effects
 
+from modeler import simulation
 from modeler.robot.read import read_robot
 from modeler.robot.robot import Robot
-from modeler.simulation import (
-    SimulationSettings,
-    collect_motion_limits,
-    draw_plant_parameters,
-    simulate,
-)
 from modeler.simulation.closing import build_constraints, compute_closed_postures, evaluate_samples
 from modeler.simulation.plant import build_plant, build_tick_function, compute_inner_states
 
-DRIVEN = SimulationSettings(
+DRIVEN = simulation.SimulationSettings(
     duration=1.5, rate=1000, encoder_counts=0, linear_resolution=0, torque_noise=0, controller=True
 )
 
 
 def plant_of(source: Robot):
-    limits, constraints = collect_motion_limits(source), build_constraints(source)
-    parameters = draw_plant_parameters(source, limits)
+    limits, constraints = simulation.collect_motion_limits(source), build_constraints(source)
+    parameters = simulation.draw_plant_parameters(source, limits)
     return build_plant(source, parameters, limits, constraints=constraints), constraints
 
 
@@ -32,7 +27,9 @@ def plant_of(source: Robot):
 def test_the_plant_is_the_tree_with_multipliers(name: str) -> None:
     """Torques of the closed machine by projection and by multipliers; accelerations back."""
     source = read_robot(name)
-    truth = simulate(source, dataclasses.replace(DRIVEN, rate=50, controller=False)).truth
+    truth = simulation.simulate(
+        source, dataclasses.replace(DRIVEN, rate=50, controller=False)
+    ).truth
     plant, constraints = plant_of(source)
     z = compute_inner_states(
         plant, constraints, compute_closed_postures(source, constraints, truth.q)

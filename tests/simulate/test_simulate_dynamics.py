@@ -15,9 +15,11 @@ from tests.robot_texts import ARM, BACKWARDS, PENDULUM, SIX, TREE, TWO_LINK, rob
 
 TEXTS = [
     pytest.param(BACKWARDS, id="backwards"),
-    *(pytest.param(text, id=name, marks=pytest.mark.rotating)
-      for name, text in (("arm", ARM), ("six", SIX), ("tree", TREE))),
-]  # fmt: skip
+    *(
+        pytest.param(text, id=name, marks=pytest.mark.rotating)
+        for name, text in (("arm", ARM), ("six", SIX), ("tree", TREE))
+    ),
+]
 FRICTION = "Fv1 = 0.5\nFs1 = 0.7\nOff1 = -0.2\n"
 
 
@@ -110,11 +112,13 @@ def test_a_motor_that_turns_with_two_joints_loads_both():
 COUPLED = dataclasses.replace(robot(TWO_LINK), effects=(EffectUse("coupled_inertia", ("2",)),))
 NOTHING = "".join(f"{prefix}2 = 0\n" for prefix in INERTIAL)
 MISTAKES = [
-    (dataclasses.replace(robot(PENDULUM), effects=(EffectUse("levitation", ("1",)),)),
-     "joint 1: effect levitation cannot be simulated"),
+    (
+        dataclasses.replace(robot(PENDULUM), effects=(EffectUse("levitation", ("1",)),)),
+        "joint 1: effect levitation cannot be simulated",
+    ),
     (COUPLED, r"joint 2: coupled_inertia .* coupling"),
     (robot(TWO_LINK, parameters=NOTHING), "joint 2: nothing gives it an inertia"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("source", "message"), MISTAKES)

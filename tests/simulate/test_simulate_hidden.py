@@ -8,18 +8,10 @@ import casadi as ca
 import numpy as np
 import pytest
 
+from modeler import simulation
 from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError
 from modeler.robot.read import read_robot
-from modeler.simulation import (
-    HIDDEN,
-    HiddenEffect,
-    SimulationSettings,
-    collect_motion_limits,
-    draw_plant_parameters,
-    parse_hidden_effect,
-    simulate,
-)
 from modeler.simulation.closing import build_constraints, compute_closed_postures, compute_rates
 from modeler.simulation.hidden_draw import complete_effects
 from modeler.simulation.plant import apply_hidden_loads, build_plant, choose_steps_per_tick
@@ -27,14 +19,15 @@ from modeler.simulation.rigid import compute_gravity_vector, compute_world_frame
 from modeler.simulation.shafts import compute_rest_states
 from tests.oracles.complex_step import Oracle
 from tests.robot_texts import TWO_LINK, robot
+from tests.rotation import with_cases
 
-SHORT = SimulationSettings(
+SHORT = simulation.SimulationSettings(
     duration=3.0, encoder_counts=0, linear_resolution=0.0, torque_noise=0.0, rate=500.0
 )
 ARM = read_robot("demo-arm")
 NAMES = [joint.name for joint in ARM.moving_joints]
-TOP = np.array([limit.speed for limit in collect_motion_limits(ARM)])
-SERIAL = [name for name, kind in HIDDEN.items() if kind.where != "passive"]
+TOP = np.array([limit.speed for limit in simulation.collect_motion_limits(ARM)])
+SERIAL = [name for name, kind in simulation.HIDDEN.items() if kind.where != "passive"]
 
 # A motor of 0.5 kg m2 and a link of 2 kg m2 on one axis, without gravity or friction.
 SPINNER = """
@@ -52,21 +45,21 @@ ZZ1 = 2.0
 
 
 def settings_of(text, settings=SHORT):
-    return dataclasses.replace(settings, hidden=(parse_hidden_effect(text),))
+    return dataclasses.replace(settings, hidden=(simulation.parse_hidden_effect(text),))
 
 
 def made(text, source=ARM):
     """The hidden effect with all its values, and the machine's plant."""
-    limits = collect_motion_limits(source)
-    parameters = draw_plant_parameters(source, limits)
+    limits = simulation.collect_motion_limits(source)
+    parameters = simulation.draw_plant_parameters(source, limits)
     hidden = complete_effects(source, parameters, limits, settings_of(text))
     plant = build_plant(*apply_hidden_loads(source, parameters, hidden), limits, hidden)
     return hidden[0], plant
 
 
 def plain_of(source):
-    limits = collect_motion_limits(source)
-    return build_plant(source, draw_plant_parameters(source, limits), limits)
+    limits = simulation.collect_motion_limits(source)
+    return build_plant(source, simulation.draw_plant_parameters(source, limits), limits)
 
 
 @cache
@@ -83,7 +76,7 @@ def without(source, *effects):
 def states(count=200, seed=0):
     """Random motion; no joint slower than a tenth of its top speed."""
     rng = np.random.default_rng(seed)
-    limits = collect_motion_limits(ARM)
+    limits = simulation.collect_motion_limits(ARM)
     low, high, lift = (
         np.array([getattr(limit, k) for limit in limits])
         for k in ("lower", "upper", "acceleration")
@@ -184,7 +177,7 @@ def test_load_friction_is_a_share_of_what_the_links_ask():
 
 def friction_along(text, effects, settings=SHORT, joint=1):
     """The effect, truth, and torque on the joint beyond a plain arm without these effects."""
-    log = simulate(ARM, settings_of(text, settings))
+    log = simulation.simulate(ARM, settings_of(text, settings))
     truth = log.truth
     rest = torques(plain_of(without(ARM, *effects)), truth.q, truth.qd, truth.qdd)
     return log, truth.hidden_effects[0].values, (truth.tau - rest)[:, joint]
@@ -221,7 +214,7 @@ def test_friction_falls_as_its_joint_warms():
     log, p, force = friction_along(
         "temperature_friction@2:time=4,start=5", ["coulomb", "viscous"], settings
     )
-    standard = draw_plant_parameters(ARM, collect_motion_limits(ARM)).standard
+    standard = simulation.draw_plant_parameters(ARM, simulation.collect_motion_limits(ARM)).standard
     assert (p["Fv"], p["Fs"]) == (standard["Fv2"], standard["Fs2"])
     warm, v = log.further["temperature2"], log.truth.qd[:, 1]
     assert warm[0] == 30.0 and np.ptp(warm) > 2
@@ -262,10 +255,10 @@ def test_a_body_on_a_link_is_not_felt_beyond_it():
 @pytest.mark.parametrize("gravity", ["[0, 0, -9.81]", "[0.3, -9.7, 0.1]"])
 def test_a_tilted_base_turns_gravity(gravity):
     source = robot(SPINNER.replace("[0, 0, 0]", gravity))
-    parameters = draw_plant_parameters(source, collect_motion_limits(source))
+    parameters = simulation.draw_plant_parameters(source, simulation.collect_motion_limits(source))
     before, after = compute_gravity_vector(source), []
     for heading in (0.0, np.pi / 2):
-        tilt = HiddenEffect("base_tilt", None, {"angle": 0.05, "heading": heading})
+        tilt = simulation.HiddenEffect("base_tilt", None, {"angle": 0.05, "heading": heading})
         after.append(compute_gravity_vector(apply_hidden_loads(source, parameters, [tilt])[0]))
         assert np.linalg.norm(after[-1]) == pytest.approx(np.linalg.norm(before))
         cosine = after[-1] @ before / (before @ before)
@@ -331,30 +324,30 @@ def test_links_sag_on_their_transmissions_at_rest(name):
 
 @pytest.fixture(scope="module")
 def clean():
-    return simulate(ARM, SHORT)
+    return simulation.simulate(ARM, SHORT)
 
 
 @pytest.mark.slow
 def test_sensors_that_are_wrong_do_not_change_the_machine(clean):
-    late = simulate(ARM, settings_of("time_delay:delay=0.006"))
+    late = simulation.simulate(ARM, settings_of("time_delay:delay=0.006"))
     np.testing.assert_allclose(late.tau[4:], clean.tau[1:-3], atol=1e-9)
-    part = simulate(ARM, settings_of("time_delay:delay=0.005")).tau[4:]
+    part = simulation.simulate(ARM, settings_of("time_delay:delay=0.005")).tau[4:]
     np.testing.assert_allclose(
         part[1:], (clean.tau[3:-2] + clean.tau[2:-3]) / 2, atol=0.02 * np.ptp(clean.tau)
     )
-    weak = simulate(ARM, settings_of("drive_gain@2:ratio=0.9"))
+    weak = simulation.simulate(ARM, settings_of("drive_gain@2:ratio=0.9"))
     np.testing.assert_allclose(weak.tau, clean.tau * [1, 0.9, 1], rtol=1e-12)
-    lost = simulate(ARM, settings_of("drift@3:per_minute=6"))
+    lost = simulation.simulate(ARM, settings_of("drift@3:per_minute=6"))
     np.testing.assert_allclose(lost.tau - clean.tau, np.outer(lost.time, [0, 0, 0.1]), atol=1e-10)
     for log in (late, weak, lost):
         assert np.array_equal(log.q, clean.q)
 
 
 def test_encoders_that_are_wrong_deceive_the_controller(clean):
-    moved = simulate(ARM, settings_of("encoder_offset@2:angle=0.03"))
+    moved = simulation.simulate(ARM, settings_of("encoder_offset@2:angle=0.03"))
     np.testing.assert_allclose(moved.q - moved.truth.q, [[0, 0.03, 0]] * len(moved.q), atol=1e-12)
     assert np.abs(moved.q - moved.qc).max() < 1.2 * np.abs(clean.q - clean.qc).max()
-    waved = simulate(ARM, settings_of("encoder_eccentricity@3:amplitude=0.01,phase=0.5"))
+    waved = simulation.simulate(ARM, settings_of("encoder_eccentricity@3:amplitude=0.01,phase=0.5"))
     error = 0.01 * np.sin(waved.truth.q[:, 2] + 0.5)
     np.testing.assert_allclose((waved.q - waved.truth.q)[:, 2], error, atol=1e-12)
     assert np.abs(waved.q - waved.qc).max() < 1.5 * np.abs(clean.q - clean.qc).max()
@@ -363,7 +356,7 @@ def test_encoders_that_are_wrong_deceive_the_controller(clean):
 
 
 def test_random_torques_on_the_machine(clean):
-    log = simulate(ARM, dataclasses.replace(SHORT, duration=6.0, process_noise=0.05))
+    log = simulation.simulate(ARM, dataclasses.replace(SHORT, duration=6.0, process_noise=0.05))
     truth = log.truth
     pushed = torques(plain(), truth.q, truth.qd, truth.qdd) - truth.tau
     share = pushed.std(axis=0) / np.sqrt(np.mean(truth.tau**2, axis=0))
@@ -378,10 +371,10 @@ def test_random_torques_on_the_machine(clean):
 @pytest.mark.parametrize("name", SERIAL)
 def test_every_effect_is_drawn_seen_and_kept_under_control(name):
     settings = dataclasses.replace(SHORT, duration=0.8, rate=400.0)
-    log = simulate(ARM, settings_of(name, settings))
+    log = simulation.simulate(ARM, settings_of(name, settings))
     (effect,) = log.truth.hidden_effects
     assert effect.effect == name
-    assert (effect.joint is None) == (HIDDEN[name].where == "system")
+    assert (effect.joint is None) == (simulation.HIDDEN[name].where == "system")
     assert np.abs(log.q - log.qc).max() < 0.05
     assert np.all(np.isfinite(log.tau))
 
@@ -389,23 +382,28 @@ def test_every_effect_is_drawn_seen_and_kept_under_control(name):
 def test_what_is_drawn_belongs_to_the_parameter_seed_alone():
     def values(**changes):
         settings = dataclasses.replace(SHORT, **changes)
-        limits = collect_motion_limits(ARM)
-        parameters = draw_plant_parameters(ARM, limits, settings.parameter_seed)
+        limits = simulation.collect_motion_limits(ARM)
+        parameters = simulation.draw_plant_parameters(ARM, limits, settings.parameter_seed)
         return complete_effects(ARM, parameters, limits, settings)
 
-    stribeck, spring = HiddenEffect("stribeck"), HiddenEffect("spring")
+    stribeck, spring = simulation.HiddenEffect("stribeck"), simulation.HiddenEffect("spring")
     (alone,) = values(hidden=(stribeck,))
     assert values(hidden=(spring, stribeck), seed=5)[1] == alone
     others = [values(hidden=(stribeck,), parameter_seed=k)[0] for k in range(1, 9)]
     assert all(other.values != alone.values for other in others)
     assert len({other.joint for other in others}) == 3
-    (given,) = values(hidden=(HiddenEffect("stribeck", alone.joint, {"extra": 9.0}),))
+    (given,) = values(hidden=(simulation.HiddenEffect("stribeck", alone.joint, {"extra": 9.0}),))
     assert given.values == {**alone.values, "extra": 9.0}
-    twice = values(hidden=(HiddenEffect("motor_ripple", "1"), HiddenEffect("motor_ripple", "1")))
+    twice = values(
+        hidden=(
+            simulation.HiddenEffect("motor_ripple", "1"),
+            simulation.HiddenEffect("motor_ripple", "1"),
+        )
+    )
     assert twice[0].values != twice[1].values
 
 
-LOOPED = SimulationSettings(
+LOOPED = simulation.SimulationSettings(
     duration=1.0, rate=200.0, encoder_counts=0, linear_resolution=0.0, torque_noise=0.0
 )
 
@@ -413,12 +411,12 @@ LOOPED = SimulationSettings(
 @pytest.fixture(scope="module")
 def five_bar():
     source = read_robot("five-bar")
-    return source, simulate(source, LOOPED)
+    return source, simulation.simulate(source, LOOPED)
 
 
 def test_friction_in_passive_joints_costs_the_motors_its_power(five_bar):
     source, before = five_bar
-    log = simulate(source, settings_of("passive_friction@22:Fv=0.2,Fs=0.1", LOOPED))
+    log = simulation.simulate(source, settings_of("passive_friction@22:Fv=0.2,Fs=0.1", LOOPED))
     truth, constraints = log.truth, build_constraints(source)
     v, _ = compute_rates(
         constraints, compute_closed_postures(source, constraints, truth.q), truth.qd, truth.qdd
@@ -443,8 +441,8 @@ LAWS_IN_LOOPS = {
 def test_effects_on_motors_of_robots_with_loops(five_bar):
     """All at once, of which each is larger than the bound by far."""
     source, before = five_bar
-    hidden = tuple(map(parse_hidden_effect, LAWS_IN_LOOPS))
-    log = simulate(source, dataclasses.replace(LOOPED, hidden=hidden))
+    hidden = tuple(map(simulation.parse_hidden_effect, LAWS_IN_LOOPS))
+    log = simulation.simulate(source, dataclasses.replace(LOOPED, hidden=hidden))
     more = log.truth.tau - before.truth.tau
     q, v = log.truth.q[:, 1], log.truth.qd[:, 1]
     np.testing.assert_allclose(
@@ -456,13 +454,13 @@ def test_effects_on_motors_of_robots_with_loops(five_bar):
 @pytest.mark.rotating("long tests of simulate")
 def test_sensors_and_loads_of_robots_with_loops(five_bar):
     source, before = five_bar
-    late = simulate(source, settings_of("time_delay:delay=0.005", LOOPED))
+    late = simulation.simulate(source, settings_of("time_delay:delay=0.005", LOOPED))
     np.testing.assert_allclose(late.tau[1:], before.tau[:-1], atol=1e-9)
     platform = read_robot("orthoglide-2003")
     settings = dataclasses.replace(LOOPED, duration=0.3, rate=50.0)
     more = (
-        simulate(platform, settings_of("payload:mass=2", settings)).truth.tau
-        - simulate(platform, settings).truth.tau
+        simulation.simulate(platform, settings_of("payload:mass=2", settings)).truth.tau
+        - simulation.simulate(platform, settings).truth.tau
     )
     # In the isotropic posture the platform moves along the axes of the motors, one to one.
     x = ca.SX.sym("x", len(platform.moving_joints))
@@ -473,43 +471,41 @@ def test_sensors_and_loads_of_robots_with_loops(five_bar):
     assert np.abs(more[0]).max() == pytest.approx(2 * 9.81)
 
 
-@pytest.mark.parametrize(
-    ("source", "texts", "message"),
-    [
-        ("demo-arm", "rust", r"hidden effect rust: no such effect; expected one of rotor_inertia"),
-        ("demo-arm", "stribeck@9", r"got joint 9; expected one of 1, 2, 3"),
-        ("demo-arm", "coupled_friction@3", r"got joint 3; expected one of 1, 2"),
-        ("demo-arm", "payload@3", r"payload: got joint 3; expected none"),
-        ("demo-arm", "spring@1:k=3", r"got a value k; expected some of stiffness, rest"),
-        ("demo-arm", "stribeck@1:speed=0", r"stribeck, speed: got 0; expected a number above 0"),
-        ("demo-arm", "passive_friction", r"no place for it; expected a joint without motor"),
-        ("five-bar", "elasticity", r"not simulated for robots with loops.*expected one of"),
-        ("five-bar", "external_force", r"not simulated for robots with loops"),
-        ("emps", "counterbalance", r"no place for it; expected a joint that turns"),
-        ("wrist-coupled", "external_force", r"lies on every axis, where no force moves a joint"),
-        ("demo-arm", "", r"got ''; expected EFFECT, EFFECT@JOINT"),
-        ("demo-arm", "spring@", r"got 'spring@'"),
-        ("demo-arm", "spring@1:", r"got 'spring@1:'"),
-        ("demo-arm", "spring@1:stiffness", r"got 'stiffness'; expected each value once as name=v"),
-        ("demo-arm", "spring@1:rest=1,rest=2", r"got 'rest=2'; expected each value once"),
-        ("demo-arm", "spring@1:rest=far", r"rest: got 'far'; expected a number"),
-        ("demo-arm", "spring@1:rest=inf", r"rest: got 'inf'; expected a number"),
-        ("demo-arm", "presliding@1 temperature_friction@1", "both are its coulo"),
-        ("demo-arm", "elasticity@2 backlash@2", "both are its transmission; hide them on differ"),
-        ("demo-arm", "elasticity@2 elasticity@2:stiffness=100", "both are its transmission"),
-        (SPINNER, "base_tilt", "base_tilt: the robot has no gravity"),
-        (TWO_LINK, "elasticity", "elasticity: no place .* rotor_inertia in the robot"),
-    ],
+@with_cases(
+    "source, texts, message",
+    ("demo-arm", "rust", r"hidden effect rust: no such effect; expected one of rotor_inertia"),
+    ("demo-arm", "stribeck@9", r"got joint 9; expected one of 1, 2, 3"),
+    ("demo-arm", "coupled_friction@3", r"got joint 3; expected one of 1, 2"),
+    ("demo-arm", "payload@3", r"payload: got joint 3; expected none"),
+    ("demo-arm", "spring@1:k=3", r"got a value k; expected some of stiffness, rest"),
+    ("demo-arm", "stribeck@1:speed=0", r"stribeck, speed: got 0; expected a number above 0"),
+    ("demo-arm", "passive_friction", r"no place for it; expected a joint without motor"),
+    ("five-bar", "elasticity", r"not simulated for robots with loops.*expected one of"),
+    ("five-bar", "external_force", r"not simulated for robots with loops"),
+    ("emps", "counterbalance", r"no place for it; expected a joint that turns"),
+    ("wrist-coupled", "external_force", r"lies on every axis, where no force moves a joint"),
+    ("demo-arm", "", r"got ''; expected EFFECT, EFFECT@JOINT"),
+    ("demo-arm", "spring@", r"got 'spring@'"),
+    ("demo-arm", "spring@1:", r"got 'spring@1:'"),
+    ("demo-arm", "spring@1:stiffness", r"got 'stiffness'; expected each value once as name=v"),
+    ("demo-arm", "spring@1:rest=1,rest=2", r"got 'rest=2'; expected each value once"),
+    ("demo-arm", "spring@1:rest=far", r"rest: got 'far'; expected a number"),
+    ("demo-arm", "spring@1:rest=inf", r"rest: got 'inf'; expected a number"),
+    ("demo-arm", "presliding@1 temperature_friction@1", "both are its coulo"),
+    ("demo-arm", "elasticity@2 backlash@2", "both are its transmission; hide them on differ"),
+    ("demo-arm", "elasticity@2 elasticity@2:stiffness=100", "both are its transmission"),
+    (SPINNER, "base_tilt", "base_tilt: the robot has no gravity"),
+    (TWO_LINK, "elasticity", "elasticity: no place .* rotor_inertia in the robot"),
 )
 def test_effects_that_a_robot_cannot_have(source, texts, message):
     arm = robot(source) if "\n" in source else read_robot(source)
     with pytest.raises(ModelerError, match=message):
-        hidden = tuple(parse_hidden_effect(text) for text in texts.split(" "))
-        simulate(arm, dataclasses.replace(SHORT, hidden=hidden))
+        hidden = tuple(simulation.parse_hidden_effect(text) for text in texts.split(" "))
+        simulation.simulate(arm, dataclasses.replace(SHORT, hidden=hidden))
 
 
 def test_bristles_too_short_for_any_step():
-    limits = collect_motion_limits(ARM)
+    limits = simulation.collect_motion_limits(ARM)
     _, plant = made("presliding@1:distance=1e-6")
     with pytest.raises(DataError, match=r"follows at .* 1/s at top speed; .* larger distance"):
         choose_steps_per_tick(plant, limits, 1e-3)

@@ -9,19 +9,12 @@ from modeler.core.choices import list_builtin_robots
 from modeler.core.errors import RobotError
 from modeler.robot.read import read_robot
 from modeler.robot.robot import INERTIAL, Limits
-from modeler.simulation import collect_motion_limits, draw_plant_parameters
+from modeler.simulation import collect_motion_limits, draw_plant_parameters, rigid
 from modeler.simulation.parameters import Completion, complete_body
-from modeler.simulation.rigid import (
-    Body,
-    compute_body,
-    compute_pseudo_inertia,
-    compute_standard_parameters,
-    convert_pseudo_inertia,
-    is_physical,
-)
 from tests.bodies import ten_of_points
 from tests.robot_texts import ARM, PENDULUM, SIX, TREE, robot
 from tests.robots import kinds_first
+from tests.rotation import with_cases
 
 
 def cloud(seed: int) -> tuple[np.ndarray, np.ndarray]:
@@ -34,32 +27,34 @@ def cloud(seed: int) -> tuple[np.ndarray, np.ndarray]:
 def test_body_of_a_cloud_of_points(seed):
     masses, places = cloud(seed)
     standard = ten_of_points(masses, places)
-    body = compute_body(standard)
+    body = rigid.compute_body(standard)
     centre = masses @ places / masses.sum()
     apart = places - centre
     about = sum(m * (p @ p * np.eye(3) - np.outer(p, p)) for m, p in zip(masses, apart))  # noqa: B905
     np.testing.assert_allclose(body.centre, centre, rtol=1e-12)
     np.testing.assert_allclose(body.inertia, about, rtol=1e-10, atol=1e-12)
-    assert list(compute_standard_parameters(body)) == list(INERTIAL)
-    assert compute_standard_parameters(body) == pytest.approx(standard, rel=1e-12)
+    assert list(rigid.compute_standard_parameters(body)) == list(INERTIAL)
+    assert rigid.compute_standard_parameters(body) == pytest.approx(standard, rel=1e-12)
     second = sum(m * np.outer(p, p) for m, p in zip(masses, places))  # noqa: B905
     np.testing.assert_allclose(
-        compute_pseudo_inertia(standard)[:3, :3], second, rtol=1e-10, atol=1e-12
+        rigid.compute_pseudo_inertia(standard)[:3, :3], second, rtol=1e-10, atol=1e-12
     )
-    assert convert_pseudo_inertia(compute_pseudo_inertia(standard)) == pytest.approx(standard)
+    assert rigid.convert_pseudo_inertia(rigid.compute_pseudo_inertia(standard)) == pytest.approx(
+        standard
+    )
 
 
 def test_points_rods_and_nothing_are_physical_but_no_less():
     masses, places = cloud(0)
     for count in (6, 2, 1):
-        assert is_physical(ten_of_points(masses[:count], places[:count]))
-    assert is_physical(dict.fromkeys(INERTIAL, 0.0))
+        assert rigid.is_physical(ten_of_points(masses[:count], places[:count]))
+    assert rigid.is_physical(dict.fromkeys(INERTIAL, 0.0))
     lighter = ten_of_points(masses, places) | {"M": 0.5}
-    assert not is_physical(lighter)
-    assert not is_physical(dict.fromkeys(INERTIAL, 0.0) | {"MX": 1.0})
+    assert not rigid.is_physical(lighter)
+    assert not rigid.is_physical(dict.fromkeys(INERTIAL, 0.0) | {"MX": 1.0})
     triangle = dict.fromkeys(INERTIAL, 0.0) | {"M": 1.0, "XX": 1.0, "YY": 1.0, "ZZ": 2.1}
-    assert not is_physical(triangle)
-    assert is_physical(triangle | {"ZZ": 2.0})
+    assert not rigid.is_physical(triangle)
+    assert rigid.is_physical(triangle | {"ZZ": 2.0})
 
 
 @pytest.mark.parametrize("text", [PENDULUM, ARM, SIX, TREE])
@@ -70,7 +65,7 @@ def test_drawn_links_are_physical_and_friction_is_in_proportion(text, seed):
     assert set(parameters.drawn) == set(parameters.standard)
     for joint in source.moving_joints:
         values = {p: parameters.standard[p + joint.name] for p in INERTIAL}
-        assert np.linalg.eigvalsh(compute_pseudo_inertia(values))[0] > 0
+        assert np.linalg.eigvalsh(rigid.compute_pseudo_inertia(values))[0] > 0
         assert 0.01 < values["M"] < 300
         assert parameters.standard.get(f"Fs{joint.name}", 1.0) > 0
         for off in ("XY", "XZ", "YZ", "MX"):
@@ -92,7 +87,7 @@ def test_stated_numbers_are_kept_and_the_rest_is_drawn():
     assert not set(chosen) & set(parameters.drawn)
     assert {"XX2", "MY2", "Fv2", "M1"} <= set(parameters.drawn)
     link = {p: parameters.standard[p + "2"] for p in INERTIAL}
-    assert is_physical(link, tolerance=0)
+    assert rigid.is_physical(link, tolerance=0)
 
 
 def test_letters_of_a_paper_count_where_they_have_numbers():
@@ -115,8 +110,8 @@ def test_every_built_in_robot_can_be_filled_in(name):
     assert all(np.isfinite(value) for value in parameters.standard.values())
 
 
-REFERENCE = compute_standard_parameters(
-    Body(8.0, np.array([0.2, 0.01, 0.02]), np.diag([0.1, 0.3, 0.35]) + 0.01)
+REFERENCE = rigid.compute_standard_parameters(
+    rigid.Body(8.0, np.array([0.2, 0.01, 0.02]), np.diag([0.1, 0.3, 0.35]) + 0.01)
 )
 
 
@@ -135,25 +130,25 @@ def test_whatever_a_real_body_has_can_be_stated(count):
         values = complete_body(stated, REFERENCE).values
         assert values is not None, (seed, stated)
         assert stated.items() <= values.items()
-        second = compute_pseudo_inertia(values)  # positive up to rounding, by an oracle of its own
+        second = rigid.compute_pseudo_inertia(
+            values
+        )  # positive up to rounding, by an oracle of its own
         size = np.sqrt(np.abs(np.diag(second)) + 1e-9 * np.abs(np.diag(second)).max())
         assert np.linalg.eigvalsh(second / np.outer(size, size))[0] > -1e-4, (seed, stated)
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "stated",
-    [
-        {"M": 0.0, "MX": 1.0},
-        {"M": 1.0, "MX": 1.0, "ZZ": 5.0, "YY": 0.9},
-        {"XX": 1.0, "YY": 1.0, "ZZ": 2.1},
-        {"XX": 1.0, "YY": 1.0, "ZZ": 1.0, "XY": 0.6},
-        {"XX": 0.0, "MY": 0.1},
-        {"ZZ": 1.0, "XY": 0.6},
-        {"ZZ": 0.1, "MX": -34.0, "MZ": 0.01, "M": 0.004},
-        {"XX": 1.0, "YY": 1.0, "ZZ": 1.0, "XY": -0.4, "XZ": -0.4, "YZ": 0.4, "MX": 1e-3},
-        {"ZZ": 1.0, "M": 1.0, "MX": 0.8, "MY": 0.8},
-        {p: float(p in ("XX", "YY", "M")) for p in INERTIAL if p != "ZZ"} | {"ZZ": 2.01},
-    ],
+    {"M": 0.0, "MX": 1.0},
+    {"M": 1.0, "MX": 1.0, "ZZ": 5.0, "YY": 0.9},
+    {"XX": 1.0, "YY": 1.0, "ZZ": 2.1},
+    {"XX": 1.0, "YY": 1.0, "ZZ": 1.0, "XY": 0.6},
+    {"XX": 0.0, "MY": 0.1},
+    {"ZZ": 1.0, "XY": 0.6},
+    {"ZZ": 0.1, "MX": -34.0, "MZ": 0.01, "M": 0.004},
+    {"XX": 1.0, "YY": 1.0, "ZZ": 1.0, "XY": -0.4, "XZ": -0.4, "YZ": 0.4, "MX": 1e-3},
+    {"ZZ": 1.0, "M": 1.0, "MX": 0.8, "MY": 0.8},
+    {p: float(p in ("XX", "YY", "M")) for p in INERTIAL if p != "ZZ"} | {"ZZ": 2.01},
 )
 def test_links_that_cannot_exist_are_proved_impossible(stated):
     """By hand: an inequality of Cauchy and Schwarz, or the triangle inequality, fails for each."""

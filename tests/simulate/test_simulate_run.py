@@ -20,6 +20,7 @@ from modeler.simulation import (
     HIDDEN,
     SimulatedLog,
     SimulationSettings,
+    closing,
     collect_motion_limits,
     draw_plant_parameters,
     plant as native,
@@ -28,16 +29,10 @@ from modeler.simulation import (
     write_log,
     write_truth,
 )
-from modeler.simulation.closing import (
-    build_constraints,
-    compute_closed_postures,
-    compute_rates,
-    compute_tree_map,
-)
 from modeler.simulation.plant import build_plant
 from modeler.simulation.run import quantise_position
 from tests.robot_texts import ARM, PENDULUM, SIX, TREE, TWO_LINK, robot
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 SHORT = SimulationSettings(duration=2.5)
 TEXTS = {"tree": TREE, "two-link": TWO_LINK, "six": SIX}
@@ -70,11 +65,11 @@ def test_the_motors_work_is_what_the_energy_gains(name):
     settings = dataclasses.replace(SHORT, duration=seconds, controller=True)
     truth = simulate(source, settings).truth
     if source.loops:
-        constraints = build_constraints(source)
-        v = compute_closed_postures(source, constraints, truth.q)
-        vd, _ = compute_rates(constraints, v, truth.qd, truth.qdd)
+        constraints = closing.build_constraints(source)
+        v = closing.compute_closed_postures(source, constraints, truth.q)
+        vd, _ = closing.compute_rates(constraints, v, truth.qd, truth.qdd)
     else:
-        turns, offset = compute_tree_map(source)
+        turns, offset = closing.compute_tree_map(source)
         v, vd = truth.q @ turns.T + offset, truth.qd @ turns.T
     total = energies(source, parameters_of(source, SHORT), v, vd)
     work = np.cumsum(np.sum(truth.tau[:-1] * np.diff(truth.q, axis=0), axis=1))
@@ -186,13 +181,7 @@ def test_a_joint_without_motor_swings_freely():
     assert list(log.driven) == [True, False]
     assert np.all(log.truth.tau[:, 1] == 0) and np.ptp(log.truth.q[:, 1]) > 0.5
     assert np.abs(log.truth.q - log.qc)[:, 0].max() < 0.02
-    assert list(modeler.simulation.log.build_log_columns(log)) == [
-        "time",
-        "q1",
-        "q2",
-        "qc1",
-        "tau1",
-    ]
+    assert list(modeler.simulation.log.build_log_columns(log)) == "time q1 q2 qc1 tau1".split()
 
 
 def test_seeds_reproduce_every_bit(arm_log):
@@ -258,26 +247,24 @@ def test_files_that_cannot_be_written(arm_log, tmp_path):
             write(tmp_path / "file" / "log.csv", arm_log)
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"duration": 0.0}, r"duration: got 0\.0; expected a number above 0"),
-        ({"duration": float("nan")}, r"duration: got nan"),
-        ({"duration": 1e9}, r"duration: got 1e\+09 s at 1000 samples .* expected at most 2e\+07"),
-        ({"duration": 1e300, "rate": 1e300}, r"duration: got 1e\+300 s .* expected at most"),
-        ({"rate": -1.0}, r"rate: got -1\.0; expected a number above 0"),
-        ({"bandwidth": 0.0}, r"bandwidth: got 0\.0"),
-        ({"seed": -1}, r"seed: got -1; expected 0 or more"),
-        ({"encoder_counts": -5}, r"encoder_counts: got -5"),
-        ({"torque_noise": -0.1}, r"torque_noise: got -0\.1"),
-        ({"torque_noise": 1e300}, r"torque_noise: got 1e.300; expected 0 or more, at"),
-        ({"process_noise": -1}, r"process_noise: got -1"),
-        ({"process_noise": 1e300}, r"process_noise: got 1e.300; expected 0 or more, at"),
-        ({"encoder_counts": 1e300}, r"encoder_counts: got 1e.300; expected 0 or more, at"),
-        ({"torque_limits": {"x": 1.0}}, r"torque_limits: no moving joint x; expected one of 1"),
-        ({"torque_limits": {"1": 0.0}}, r"torque_limits of joint 1: got 0\.0"),
-        ({"limits": {"x": Limits(0, 1, 1, 1)}}, r"limits of joint x: no such moving joint"),
-    ],
+@with_cases(
+    "change, message",
+    ({"duration": 0.0}, r"duration: got 0\.0; expected a number above 0"),
+    ({"duration": float("nan")}, r"duration: got nan"),
+    ({"duration": 1e9}, r"duration: got 1e\+09 s at 1000 samples .* expected at most 2e\+07"),
+    ({"duration": 1e300, "rate": 1e300}, r"duration: got 1e\+300 s .* expected at most"),
+    ({"rate": -1.0}, r"rate: got -1\.0; expected a number above 0"),
+    ({"bandwidth": 0.0}, r"bandwidth: got 0\.0"),
+    ({"seed": -1}, r"seed: got -1; expected 0 or more"),
+    ({"encoder_counts": -5}, r"encoder_counts: got -5"),
+    ({"torque_noise": -0.1}, r"torque_noise: got -0\.1"),
+    ({"torque_noise": 1e300}, r"torque_noise: got 1e.300; expected 0 or more, at"),
+    ({"process_noise": -1}, r"process_noise: got -1"),
+    ({"process_noise": 1e300}, r"process_noise: got 1e.300; expected 0 or more, at"),
+    ({"encoder_counts": 1e300}, r"encoder_counts: got 1e.300; expected 0 or more, at"),
+    ({"torque_limits": {"x": 1.0}}, r"torque_limits: no moving joint x; expected one of 1"),
+    ({"torque_limits": {"1": 0.0}}, r"torque_limits of joint 1: got 0\.0"),
+    ({"limits": {"x": Limits(0, 1, 1, 1)}}, r"limits of joint x: no such moving joint"),
 )
 def test_settings_that_make_no_sense(change, message):
     with pytest.raises(ModelerError, match=message):

@@ -5,7 +5,7 @@ import http.client
 import os
 import re
 import socket
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from urllib.parse import urlsplit
 
@@ -29,13 +29,7 @@ def port_of(studio: Served) -> int:
     return urlsplit(studio.address).port or 0
 
 
-def ask(
-    studio: Served,
-    path: str = "/",
-    method: str = "GET",
-    body: bytes | Iterable[bytes] | None = None,
-    **headers: str,
-) -> Answer:
+def ask(studio, path="/", method="GET", body=None, **headers):
     """Sends a request; `host=` replaces the header, `sec_fetch_site=` is Sec-Fetch-Site."""
     given = {"host": f"127.0.0.1:{port_of(studio)}"}
     given |= {name.replace("_", "-"): value for name, value in headers.items()}
@@ -67,9 +61,12 @@ def websocket_request(headers: Mapping[str, str]) -> bytes:
     key = base64.b64encode(os.urandom(16)).decode()
     lines = [
         "GET /_nicegui_ws/socket.io/?EIO=4&transport=websocket HTTP/1.1",
-        "Connection: Upgrade", "Upgrade: websocket", "Sec-WebSocket-Version: 13",
-        f"Sec-WebSocket-Key: {key}", *(f"{name}: {value}" for name, value in headers.items()),
-    ]  # fmt: skip
+        "Connection: Upgrade",
+        "Upgrade: websocket",
+        "Sec-WebSocket-Version: 13",
+        f"Sec-WebSocket-Key: {key}",
+        *(f"{name}: {value}" for name, value in headers.items()),
+    ]
     return ("\r\n".join(lines) + "\r\n\r\n").encode()
 
 

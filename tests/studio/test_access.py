@@ -5,13 +5,17 @@ import re
 import pytest
 
 from tests.coroutines import run_coroutine
+from tests.rotation import with_cases
 from tests.studio.conftest import SECRET
 from tests.studio.requests import ask, let_in, port_of, websocket_status
 from tests.studio.window import Served
 
-EVERYWHERE = ("/", "/fit", "/studio.js", "/drop/logs", "/sheet/x.html", "/_nicegui/x",
-              "/favicon.ico", "/no-such-place",
-              "/_nicegui_ws/socket.io/?EIO=4&transport=polling")  # fmt: skip
+EVERYWHERE = tuple(
+    """
+    / /fit /studio.js /drop/logs /sheet/x.html /_nicegui/x /favicon.ico /no-such-place
+    /_nicegui_ws/socket.io/?EIO=4&transport=polling
+""".split()
+)
 
 
 @pytest.mark.parametrize("path", EVERYWHERE)
@@ -66,14 +70,20 @@ def test_names_of_this_machine_are_known(studio: Served, cookie: str, host: str)
     assert (ask(studio, cookie=cookie, host=named).status == 200) == ("{}" in host)
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "host",
-    [
-        "evil.example", "127.0.0.1.evil.example:{}", "localhost.evil.example", "evil.example:{}",
-        "127.0.0.1:{}@evil.example", "0.0.0.0:{}", "2130706433:{}", "", "localhost:",
-        "127.0.0.1:{}, evil.example", "127.0.0.1:{}\xa0",
-    ],
-)  # fmt: skip
+    "evil.example",
+    "127.0.0.1.evil.example:{}",
+    "localhost.evil.example",
+    "evil.example:{}",
+    "127.0.0.1:{}@evil.example",
+    "0.0.0.0:{}",
+    "2130706433:{}",
+    "",
+    "localhost:",
+    "127.0.0.1:{}, evil.example",
+    "127.0.0.1:{}\xa0",
+)
 def test_foreign_names_are_refused_even_with_the_cookie(studio, cookie, host: str) -> None:
     """DNS rebinding."""
     answer = ask(studio, cookie=cookie, host=host.format(port_of(studio)))
@@ -81,10 +91,15 @@ def test_foreign_names_are_refused_even_with_the_cookie(studio, cookie, host: st
 
 
 FOREIGN = [
-    {"origin": "http://evil.example"}, {"origin": "null"}, {"origin": "https://127.0.0.1:{}"},
-    {"origin": "http://127.0.0.1:1"}, {"origin": "http://127.0.0.1"}, {"origin": "http://localhost:{}"},
-    {"sec_fetch_site": "cross-site"}, {"sec_fetch_site": "same-site"},
-]  # fmt: skip
+    {"origin": "http://evil.example"},
+    {"origin": "null"},
+    {"origin": "https://127.0.0.1:{}"},
+    {"origin": "http://127.0.0.1:1"},
+    {"origin": "http://127.0.0.1"},
+    {"origin": "http://localhost:{}"},
+    {"sec_fetch_site": "cross-site"},
+    {"sec_fetch_site": "same-site"},
+]
 
 
 @pytest.mark.parametrize("headers", FOREIGN, ids=str)
@@ -110,12 +125,14 @@ def test_a_websocket_needs_the_cookie_and_takes_no_token(studio: Served, cookie:
     assert websocket_status(studio, {**own, "Cookie": cookie}) == 101
 
 
-CLIMBING = (
-    "../secret.csv", "../../secret.csv", "../../../../../../../../etc/passwd", "/etc/passwd",
-    "%2e%2e/secret.csv", "..%2f..%2fsecret.csv", "%2e%2e%2f%2e%2e%2fsecret.csv", "%2fetc%2fpasswd",
-    "..%5csecret.csv", "....//secret.csv", "%252e%252e/secret.csv", "secret.csv%00", "%00",
-    "logs/out.csv", "project.toml/../../secret.csv", "file:///etc/passwd", "~/.bashrc",
-)  # fmt: skip
+CLIMBING = tuple(
+    """
+    ../secret.csv ../../secret.csv ../../../../../../../../etc/passwd /etc/passwd %2e%2e/secret.csv
+    ..%2f..%2fsecret.csv %2e%2e%2f%2e%2e%2fsecret.csv %2fetc%2fpasswd ..%5csecret.csv
+    ....//secret.csv %252e%252e/secret.csv secret.csv%00 %00 logs/out.csv
+    project.toml/../../secret.csv file:///etc/passwd ~/.bashrc
+""".split()
+)
 
 
 def test_no_path_leads_out(studio: Served, cookie: str) -> None:

@@ -13,6 +13,7 @@ import pytest
 
 from modeler.cli import main
 from tests.json_schemas import check_schema
+from tests.rotation import with_cases
 from tests.studio.requests import ask, let_in, port_of, websocket_request
 from tests.studio.test_dropped import wait_until
 from tests.studio.window import Served
@@ -25,9 +26,12 @@ WORDS = [sys.executable, "-m", "modeler", "studio", "--no-open"]
 def test_json_alone_on_stdout_and_ctrl_c_of_a_terminal_goes_to_all(tmp_path: Path) -> None:
     """While a browser is connected; the process that draws logs says nothing of it."""
     with subprocess.Popen(
-        [*WORDS, str(tmp_path), "--json", "-"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-        text=True, start_new_session=True,
-    ) as process:  # fmt: skip
+        [*WORDS, str(tmp_path), "--json", "-"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    ) as process:
         assert process.stdout is not None and process.stderr is not None
         raw = json.loads("".join(iter(process.stdout.readline, "}\n")) + "}")
         studio = Served(tmp_path, raw["address"], process)
@@ -49,16 +53,14 @@ def test_json_alone_on_stdout_and_ctrl_c_of_a_terminal_goes_to_all(tmp_path: Pat
         assert process.stdout.read() == "" and process.stderr.read() == "modeler: interrupted\n"
 
 
-@pytest.mark.parametrize(
-    ("words", "expected"),
-    [
-        (("--port", "99999"), "--port: got 99999; expected 1 to 65535, 0 for a free one"),
-        (("--allow", "{}/none"), "no such folder; expected one that holds logs"),
-        (("{}/file",), "cannot be used as a project folder"),
-        (("{}/file/below",), "cannot be used as a project folder"),
-        (("{}/p", "--port", "{port}"), "cannot be opened (Address already in use); choose another"),
-        (("{}",), "project.toml: is not valid UTF-8 (byte 12); put the file back"),
-    ],
+@with_cases(
+    "words, expected",
+    (("--port", "99999"), "--port: got 99999; expected 1 to 65535, 0 for a free one"),
+    (("--allow", "{}/none"), "no such folder; expected one that holds logs"),
+    (("{}/file",), "cannot be used as a project folder"),
+    (("{}/file/below",), "cannot be used as a project folder"),
+    (("{}/p", "--port", "{port}"), "cannot be opened (Address already in use); choose another"),
+    (("{}",), "project.toml: is not valid UTF-8 (byte 12); put the file back"),
 )
 def test_what_it_cannot_do_is_one_line(tmp_path, capsys, words, expected) -> None:
     (tmp_path / "file").write_text("")
@@ -86,16 +88,20 @@ def test_where_it_is_not_installed_it_says_what_to_install(tmp_path: Path, packa
 def test_the_browser_gets_an_address_that_is_good_once(tmp_path: Path, monkeypatch) -> None:
     """What a browser is started with stands in the list of processes; what is printed does not."""
     opener, place, folder = (tmp_path / name for name in ("opener", "address.json", "p"))
-    opener.write_text(f'#!/bin/sh\necho "$1" > {tmp_path}/opened.part\n'
-                      f"mv {tmp_path}/opened.part {tmp_path}/opened\n")  # fmt: skip
+    opener.write_text(
+        f'#!/bin/sh\necho "$1" > {tmp_path}/opened.part\n'
+        f"mv {tmp_path}/opened.part {tmp_path}/opened\n"
+    )
     opener.chmod(0o755)
     environment = os.environ | {"BROWSER": f"{opener} %s"}
     environment.pop("SSH_CONNECTION", None)
     words = [word for word in WORDS if word != "--no-open"]
     with subprocess.Popen(
-        [*words, str(folder), "--json", str(place)], stdout=subprocess.PIPE, text=True,
+        [*words, str(folder), "--json", str(place)],
+        stdout=subprocess.PIPE,
+        text=True,
         env=environment,
-    ) as process:  # fmt: skip
+    ) as process:
         assert process.stdout is not None
         first, second = process.stdout.readline(), process.stdout.readline()
         raw = json.loads(place.read_text())

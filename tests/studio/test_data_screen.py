@@ -1,7 +1,5 @@
 """The data screen as a person uses it: a log comes in, is dragged, brushed and played."""
 
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,9 +16,7 @@ JOINTS = (1, 2, 3)
 
 
 @pytest.mark.rotating("screens of the studio")
-def test_a_log_is_dropped_dragged_brushed_and_played(
-    window: Callable[..., Window], tmp_path: Path
-) -> None:
+def test_a_log_is_dropped_dragged_brushed_and_played(window, tmp_path):
     run, folder = simulate(load("demo-arm"), duration=8.0, seed=11), tmp_path / "arm"
     columns = {"Zeit": run.time}
     columns |= {f"Winkel_{j}": np.rad2deg(run.q[:, j - 1]) for j in JOINTS}

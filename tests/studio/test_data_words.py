@@ -40,9 +40,7 @@ FIVE = joints("1", "2", "3", "4", "5")
 NAMES = joints("waist", "11", "7")
 
 
-def drawn_choices(
-    rng: np.random.Generator, robot: tuple[JointSpec, ...]
-) -> dict[str, ColumnChoice]:
+def drawn_choices(rng, robot):
     """A mapping as a person might click it together."""
     signs = [1, -1]
     alike = rng.random() < 0.5
@@ -126,8 +124,9 @@ def test_pictures_have_the_numbers_that_commands_read(tmp_path: Path) -> None:
         robot = tmp_path / "two.toml"
         robot.write_text(
             'name = "two"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j", "a", "theta", "d"]\n'
-            'rows = [["1", "0", "q1", 0], ["2", "1", "q2", 1]]\n', encoding="utf-8",
-        )  # fmt: skip
+            'rows = [["1", "0", "q1", 0], ["2", "1", "q2", 1]]\n',
+            encoding="utf-8",
+        )
         read = log_window(str(file), list(wanted), -np.inf, np.inf, words, str(robot))
         for own, choice in wanted.items():
             stated = {"a": "deg", "c": "kg cm", "d": "degC"}.get(choice.column, "")
@@ -200,9 +199,7 @@ def test_first_roles(timeline: Any) -> None:
 # Where warnings lie.
 
 
-def test_marks_of_a_log_lie_where_it_was_spoilt(
-    tmp_path: Path, capsys: pytest.CaptureFixture
-) -> None:
+def test_marks_of_a_log_lie_where_it_was_spoilt(tmp_path, capsys):
     rng = np.random.default_rng(3)
     measured, run = simulate(load("emps"), duration=6.0, rate=1000.0, seed=3), tmp_path / "run.csv"
     columns = (measured.time, measured.q[:, 0], measured.tau[:, 0])
@@ -219,9 +216,10 @@ def test_marks_of_a_log_lie_where_it_was_spoilt(
     marks = json.loads(said.read_text(encoding="utf-8"))["marks"]
     places = {(mark["kind"], mark["channel"]): mark for mark in marks}
     for kind, channel, first, last in (
-        ("spike", "tau1", spike, spike + 1), ("missing", "q1", hole, hole + 2),
+        ("spike", "tau1", spike, spike + 1),
+        ("missing", "q1", hole, hole + 2),
         ("gap", "time", gap - 1, gap + 150),
-    ):  # fmt: skip
+    ):
         mark = places[kind, channel]
         assert mark["start"] == pytest.approx(first * 1e-3, abs=1.5e-3)
         assert mark["end"] == pytest.approx(last * 1e-3, abs=1.5e-3)

@@ -17,6 +17,7 @@ from hypothesis import given, settings, strategies as st
 
 from modeler.core.errors import ModelerError
 from tests.coroutines import run_coroutine
+from tests.rotation import with_cases
 from tests.studio.hubs import full_disk
 from tests.studio.requests import Answer, ask, let_in, port_of
 from tests.studio.window import Served, served
@@ -64,15 +65,18 @@ def test_any_name_becomes_a_harmless_one(dropped: Any, name: str, ending: str) -
     assert not set(found) & set("/\\<>&\"'`$|;:*?{}#!%\n\r\t\0") and found.isprintable()
 
 
-@pytest.mark.parametrize(
-    ("name", "kept"),
-    [
-        ("run 1.csv", "run 1.csv"), ("../../etc/x.csv", "x.csv"), ("C:\\logs\\a.mat", "a.mat"),
-        (".hidden.csv", "hidden.csv"), ("--out=x.csv", "out=x.csv"), (".csv", "log.csv"),
-        ("<img src=x onerror=alert(1)>.csv", "_img src=x onerror=alert(1)_.csv"),
-        ("Zu\u0308rich.csv", "Z\u00fcrich.csv"), ("x" * 400 + ".parquet", "x" * 112 + ".parquet"),
-    ],
-)  # fmt: skip
+@with_cases(
+    "name, kept",
+    ("run 1.csv", "run 1.csv"),
+    ("../../etc/x.csv", "x.csv"),
+    ("C:\\logs\\a.mat", "a.mat"),
+    (".hidden.csv", "hidden.csv"),
+    ("--out=x.csv", "out=x.csv"),
+    (".csv", "log.csv"),
+    ("<img src=x onerror=alert(1)>.csv", "_img src=x onerror=alert(1)_.csv"),
+    ("Zu\u0308rich.csv", "Z\u00fcrich.csv"),
+    ("x" * 400 + ".parquet", "x" * 112 + ".parquet"),
+)
 def test_names_that_mean_something_lose_it(dropped: Any, name: str, kept: str) -> None:
     assert dropped.safe_name(name) == kept
 
@@ -97,15 +101,14 @@ def test_none_is_written_over_another(studio: Served, cookie: str) -> None:
     assert (studio.folder / "logs/\u00fc-2.csv").read_bytes() == "\u00fc.csv".encode()
 
 
-@pytest.mark.parametrize(
-    ("kind", "name", "told"),
-    [
-        ("logs", "x.exe", "x.exe: cannot be taken; expected .csv, "),
-        ("logs", "numpy.py", "numpy.py: cannot be taken"), ("logs", "", "cannot be taken"),
-        ("originals", "a.csv", "expected .toml, .par, .urdf"),
-        ("models", "a.json", "got models; expected one of logs, originals"),
-    ],
-)  # fmt: skip
+@with_cases(
+    "kind, name, told",
+    ("logs", "x.exe", "x.exe: cannot be taken; expected .csv, "),
+    ("logs", "numpy.py", "numpy.py: cannot be taken"),
+    ("logs", "", "cannot be taken"),
+    ("originals", "a.csv", "expected .toml, .par, .urdf"),
+    ("models", "a.json", "got models; expected one of logs, originals"),
+)
 def test_what_cannot_be_taken_is_one_line(studio, cookie, kind, name, told) -> None:
     answer = drop(studio, cookie, name, b"x", kind)
     assert answer.status == 400 and told in answer.text and answer.text.count("error") == 1

@@ -28,24 +28,51 @@ from tests.studio.hubs import hub_of, run_tasks
 # What a project of somebody else may do, once it is accepted: these commands, with these options.
 FIT = "--map --method --derivatives --cutoff --parallel-cutoff --low-speed --essential-below "
 ALLOWED = {
-    "fit": f"{FIT} --effects --out", "add": "--holdout --map --joint --out", "compare": "--map",
-    "contest": "--map", "diagnose": "--holdout --map --without",
-    "excite": "--between --duration --limit --out", "generate": "--precision --out",
-    "export": "--to --like --out", "log": "--robot --map", "convert": "--out --force",
+    "fit": f"{FIT} --effects --out",
+    "add": "--holdout --map --joint --out",
+    "compare": "--map",
+    "contest": "--map",
+    "diagnose": "--holdout --map --without",
+    "excite": "--between --duration --limit --out",
+    "generate": "--precision --out",
+    "export": "--to --like --out",
+    "log": "--robot --map",
+    "convert": "--out --force",
     "page": f"{FIT} --effects --holdout --without --joint --out --report",
-    "new": "--joints --template --convention --force", "derive": "--no-terms",
-    "simulate": "--duration --noise --hide --seed --out", "fleet": "--name --map",
-}  # fmt: skip
+    "new": "--joints --template --convention --force",
+    "derive": "--no-terms",
+    "simulate": "--duration --noise --hide --seed --out",
+    "fleet": "--name --map",
+}
 WORDS = {
-    "mapping": "q1=a:deg", "limit": "1=-1,1,2,3", "between": "a@1,b@2", "effects": "viscous",
-    "without": "spring@1", "effect": "spring", "joint": "2", "method": "robust",
-    "derivatives": "log", "precision": "single", "to": "urdf", "like": "arm.urdf",
-    "joints": "RRR", "template": "serial", "convention": "craig", "name": "{machine}-{period}.csv",
-}  # fmt: skip
+    "mapping": "q1=a:deg",
+    "limit": "1=-1,1,2,3",
+    "between": "a@1,b@2",
+    "effects": "viscous",
+    "without": "spring@1",
+    "effect": "spring",
+    "joint": "2",
+    "method": "robust",
+    "derivatives": "log",
+    "precision": "single",
+    "to": "urdf",
+    "like": "arm.urdf",
+    "joints": "RRR",
+    "template": "serial",
+    "convention": "craig",
+    "name": "{machine}-{period}.csv",
+}
 HARM = (
-    "--run-embedded-c", "-x", "--out=../x", "--report", "-", "../../x", "a/../../x", "/etc/passwd",
-    "a\nb", "\x00", "--", "logs/../../a.csv", "..", " --run-embedded-c", "\u2212-x", "a\\..\\b",
-)  # fmt: skip
+    *"--run-embedded-c -x --out=../x --report - ../../x a/../../x /etc/passwd".split(),
+    "a\nb",
+    "\x00",
+    "--",
+    "logs/../../a.csv",
+    "..",
+    " --run-embedded-c",
+    "\u2212-x",
+    "a\\..\\b",
+)
 MAY_BE = {"file", "like", "logs", "held", "mapping", "limit", "between", "name", "without"}
 
 
@@ -154,8 +181,12 @@ def test_changed_c_of_a_model_is_never_run(axis_project: Path, tmp_path: Path) -
     mark.unlink()
     Workspace(folder).save(Project("robot.toml", 1, steps=(Step(1, 0, Task("fit", log)),)))
     with hub_of(folder) as hub:
-        run_tasks(hub, lambda _: Task("compare", log), lambda _: Task("page", step=2),
-                  lambda _: Task("generate"))  # fmt: skip
+        run_tasks(
+            hub,
+            lambda _: Task("compare", log),
+            lambda _: Task("page", step=2),
+            lambda _: Task("generate"),
+        )
         run_coroutine(Studio(hub, "fails").ask_viewer("verdict", "models/1.json", ["logs/a.csv"]))
         assert [step.verb for step in hub.project.steps] == ["fit", "compare", "page", "generate"]
     assert not mark.exists()
@@ -232,8 +263,9 @@ def test_logs_outside_are_neither_run_nor_drawn(tmp_path: Path) -> None:
         for file in ("logs/a.csv", f"{tmp_path}/data/a.csv"):
             assert await error_of(view("log_facts", str(folder / file))) == ""
         for file in (
-            f"{tmp_path}/other/a.csv", "linked/a.csv", "logs/link.csv", "logs/many", "logs/run",
-        ):  # fmt: skip
+            f"{tmp_path}/other/a.csv",
+            *"linked/a.csv logs/link.csv logs/many logs/run".split(),
+        ):
             for asked in (hub.run(Task("log", file=file)), view("log_facts", str(folder / file))):
                 line = await error_of(asked)
                 assert "outside the folders that this studio may use; start it with" in line
@@ -244,9 +276,11 @@ def test_logs_outside_are_neither_run_nor_drawn(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["robot.toml", "robot.draft.toml", "models", "robots/1.toml", "taken/3_c", "logs", "originals",
-     "taken/4_c/deep/model.c"],
-)  # fmt: skip
+    """
+        robot.toml robot.draft.toml models robots/1.toml taken/3_c logs originals
+        taken/4_c/deep/model.c
+    """.split(),
+)
 def test_a_project_whose_places_are_links_is_not_opened(tmp_path: Path, name: str) -> None:
     """They would be written over: a robot that is edited ended in somebody's profile."""
     folder = tmp_path / "project"
@@ -277,8 +311,11 @@ def test_a_notebook_and_a_script_hold_values_as_values(tmp_path: Path) -> None:
     """What is taken away is run elsewhere, by somebody who trusts it."""
     evil = "__import__('pathlib').Path('evil').write_text('x') $(touch evil) `touch evil`"
     logs = (LogPart(f"logs/{evil}.csv"),)
-    tasks = (Task("fit", logs, mapping=(f"q1={evil}",)), Task("diagnose", logs, without=(evil,)),
-             Task("add", logs, logs, effect="spring"))  # fmt: skip
+    tasks = (
+        Task("fit", logs, mapping=(f"q1={evil}",)),
+        Task("diagnose", logs, without=(evil,)),
+        Task("add", logs, logs, effect="spring"),
+    )
     steps = tuple(Step(k, min(k - 1, 1), task) for k, task in enumerate(tasks, start=1))
     project = Project(
         "robot.toml", 3, steps=steps, logs=(ProjectLog("logs/a.csv", (TimeRange(),)),)
@@ -297,9 +334,12 @@ def test_a_notebook_and_a_script_hold_values_as_values(tmp_path: Path) -> None:
 
 # Parts of an attribute that are no names of anybody's.
 OURS = {
-    "kind", "endings", "named", "NAME", "address", "'-alone' * alone", "number",
-    "'true' if here else 'false'", "'pause' if event.args else 'play_arrow'",
-}  # fmt: skip
+    *"kind endings named NAME address".split(),
+    "'-alone' * alone",
+    "number",
+    "'true' if here else 'false'",
+    "'pause' if event.args else 'play_arrow'",
+}
 
 
 def test_names_are_no_part_of_a_text_of_attributes() -> None:

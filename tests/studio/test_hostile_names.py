@@ -99,6 +99,9 @@ def test_a_report_that_somebody_wrote_reaches_nothing(hostile: Path, window) -> 
         shown.wait_for_selector(".main-svg")
         shown.wait_for_function("() => window.told.length === 4")
         assert set(shown.evaluate("() => window.told")) == {
-            "GET TypeError", "POST TypeError", "socket error", "cookie SecurityError",
-        }  # fmt: skip
+            "GET TypeError",
+            "POST TypeError",
+            "socket error",
+            "cookie SecurityError",
+        }
         assert not list((hostile / "logs").glob("[!<]*"))

@@ -20,6 +20,8 @@ from modeler.studio.places import (
 )
 from modeler.studio.project import Project
 from modeler.studio.tasks import Step, Task
+from tests.rotation import with_cases
+from tests.texts import read_rows
 
 
 @pytest.fixture
@@ -27,8 +29,10 @@ def tree(tmp_path: Path) -> Path:
     """A folder that may be read, and its neighbour that may not."""
     for name in ("open/run", "open/.git", "open2", "shut"):
         (tmp_path / name).mkdir(parents=True)
-    for name in ("open/b.CSV", "open/a.parquet", "open/arm.toml", "open/x.txt", "open/.h.csv",
-                 "open/run/c.mat", "shut/secret.csv"):  # fmt: skip
+    for name in """
+        open/b.CSV open/a.parquet open/arm.toml open/x.txt open/.h.csv open/run/c.mat
+        shut/secret.csv
+    """.split():
         (tmp_path / name).write_text("12345")
     (tmp_path / "open/inside.csv").symlink_to(tmp_path / "open/run/../b.CSV")
     (tmp_path / "open/out.csv").symlink_to(tmp_path / "shut/secret.csv")
@@ -48,16 +52,20 @@ def test_the_picker_lists_what_may_be_chosen(tree: Path) -> None:
     assert [entry.name for entry in roots.read_entries(f"{tree}/open/run")] == ["c.mat"]
 
 
-@pytest.mark.parametrize(
-    ("place", "told"),
-    [
-        ("shut", "outside the folders that this studio may use; start it with --allow"),
-        ("shut/secret.csv", "outside"), ("open/..", "outside"), ("open/out", "outside"),
-        ("open/out.csv", "outside"), ("open/../shut/secret.csv", "outside"),
-        ("open/none", "no such file"), ("open/ring.csv", "no such file"),
-        ("open\0", "no such file"), ("openx", "no such file"), ("open2", "outside"),
-    ],
-)  # fmt: skip
+@with_cases(
+    "place, told",
+    ("shut", "outside the folders that this studio may use; start it with --allow"),
+    ("shut/secret.csv", "outside"),
+    ("open/..", "outside"),
+    ("open/out", "outside"),
+    ("open/out.csv", "outside"),
+    ("open/../shut/secret.csv", "outside"),
+    ("open/none", "no such file"),
+    ("open/ring.csv", "no such file"),
+    ("open\0", "no such file"),
+    ("openx", "no such file"),
+    ("open2", "outside"),
+)
 def test_nothing_outside_is_chosen(tree: Path, place: str, told: str) -> None:
     roots = Roots((tree / "open",))
     with pytest.raises(DataError, match=told):
@@ -131,8 +139,9 @@ def test_disk_is_counted_by_what_it_is_for(tmp_path: Path) -> None:
 
 def test_tidying_takes_what_no_step_on_the_way_needs(tmp_path: Path) -> None:
     """1 fit, 2 diagnose, 3 add, then back to 1: 4 add; 5 and 6 are about models; 7 never ended."""
-    way = ((1, 0, "fit"), (2, 1, "diagnose"), (3, 1, "add"), (4, 1, "add"), (5, 3, "compare"),
-           (6, 4, "compare"), (8, 0, "simulate"))  # fmt: skip
+    way = tuple(
+        read_rows("1 0 fit; 2 1 diagnose; 3 1 add; 4 1 add; 5 3 compare; 6 4 compare; 8 0 simulate")
+    )
     steps = tuple(Step(number, parent, Task(verb)) for number, parent, verb in way)
     project = Project(robot="robot.toml", current=4, steps=steps)
     for folder in ("robots", "models", "results", "logs"):

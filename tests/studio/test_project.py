@@ -14,6 +14,8 @@ from modeler.core.errors import DataError, ModelerError
 from modeler.studio import project as projects
 from modeler.studio.project import FILE, Project, ProjectLog, Workspace
 from modeler.studio.tasks import LogPart, Step, Task, TimeRange
+from tests.rotation import with_cases
+from tests.texts import read_rows
 
 _NAME = st.from_regex(r"[a-z]\w{0,9}", fullmatch=True)
 _FILE = st.from_regex(r"([\w ][\w.+'\" -]{0,9}/){0,2}[a-z\u00e9][\w.+ ]{0,9}", fullmatch=True)
@@ -26,63 +28,75 @@ _MAPPING = st.lists(_NAME.map(lambda name: f'{name}=a "b" [{name}]:deg'), max_si
 _NUMBER = st.none() | st.floats(0.0, 1e5)
 _NAMES = st.lists(_NAME, max_size=3).map(tuple)
 _TASK = st.one_of(
-    st.builds(Task, st.just("fit"), _PARTS, mapping=_MAPPING, method=_NAME, cutoff=_NUMBER,
-              low_speed=_NUMBER, effects=_NAMES),
+    st.builds(
+        Task,
+        st.just("fit"),
+        _PARTS,
+        mapping=_MAPPING,
+        method=_NAME,
+        cutoff=_NUMBER,
+        low_speed=_NUMBER,
+        effects=_NAMES,
+    ),
     st.builds(Task, st.just("add"), _PARTS, _PARTS, _MAPPING, effect=_NAME, joint=_NAME),
     st.builds(Task, st.just("diagnose"), _PARTS, _PARTS, without=_NAMES),
     st.builds(Task, st.just("log"), file=_FILE, robot=st.booleans(), mapping=_MAPPING),
     st.builds(Task, st.just("contest"), models=st.tuples(st.integers(1, 9), st.integers(1, 9))),
-)  # fmt: skip
+)
 _STEPS = st.lists(
     st.builds(
-        Step, st.integers(1, 99), st.integers(0, 99), _TASK, st.floats(0.0, 1e5, allow_nan=False),
+        Step,
+        st.integers(1, 99),
+        st.integers(0, 99),
+        _TASK,
+        st.floats(0.0, 1e5, allow_nan=False),
         st.text(st.characters(exclude_categories=["Cs"]), max_size=12),
     ),
-    max_size=3, unique_by=lambda step: step.number,
-)  # fmt: skip
+    max_size=3,
+    unique_by=lambda step: step.number,
+)
 
 
 @settings(max_examples=30)
 @given(
     st.builds(
-        Project, st.sampled_from(["", "robot.toml"]), st.just(0), _MAPPING, st.booleans(), _NAMES,
-        _LOGS.map(tuple), _STEPS.map(tuple),
+        Project,
+        st.sampled_from(["", "robot.toml"]),
+        st.just(0),
+        _MAPPING,
+        st.booleans(),
+        _NAMES,
+        _LOGS.map(tuple),
+        _STEPS.map(tuple),
     )
-)  # fmt: skip
+)
 def test_whatever_a_project_holds_is_read_back(project: Project) -> None:
     text = projects.format_project(project)
     assert set(tomllib.loads(text)) >= {"robot", "current", "mapping", "without"}
     assert projects.parse_project(text, FILE) == project
 
 
-@pytest.mark.parametrize(
-    ("content", "expected"),
-    [
-        (b"robot = ", "Invalid value"),
-        (b"robot = 3", "robot is 3, expected"),
-        (b"robot = '/etc/passwd'", "robot is '/etc/passwd', expected"),
-        (b"current = 3", "current: got 3; expected a step that made a model, or 0"),
-        (b"[[steps]]\nnumber = 1\nparent = 0\ntask = 3", "steps[0].task is 3, expected an object"),
-        (
-            b"[[steps]]\nnumber = 1\nparent = 0\ntask = { verb = 'rm' }",
-            "steps[0].task.verb is 'rm'",
-        ),
-        (2 * b"[[steps]]\nnumber = 1\nparent = 0\ntask = { verb = 'derive' }\n", "the same number"),
-        (b"color = 'blue'", "'color' is unknown"),
-        (b"[[logs]]\ntrain = []", "logs[0].file is missing"),
-        (b"[[steps]]\nnumber = 1.5", "steps[0]"),
-        (b"logs = [1]", "logs[0] is 1, expected an object"),
-        (b"robot = '\xe9'", "is not valid UTF-8 (byte 10); put the file back"),
-        (b"\xff\xfer\x00o\x00", "is not valid UTF-8 (byte 1)"),
-        (b"\x00" * 9, "expected a file that `modeler studio` wrote"),
-        (b"a = " + b"[" * 5000, "expected a file that `modeler studio` wrote"),
-        (None, "cannot be read"),
-    ],
+@with_cases(
+    "content, expected",
+    (b"robot = ", "Invalid value"),
+    (b"robot = 3", "robot is 3, expected"),
+    (b"robot = '/etc/passwd'", "robot is '/etc/passwd', expected"),
+    (b"current = 3", "current: got 3; expected a step that made a model, or 0"),
+    (b"[[steps]]\nnumber = 1\nparent = 0\ntask = 3", "steps[0].task is 3, expected an object"),
+    (b"[[steps]]\nnumber = 1\nparent = 0\ntask = { verb = 'rm' }", "steps[0].task.verb is 'rm'"),
+    (2 * b"[[steps]]\nnumber = 1\nparent = 0\ntask = { verb = 'derive' }\n", "the same number"),
+    (b"color = 'blue'", "'color' is unknown"),
+    (b"[[logs]]\ntrain = []", "logs[0].file is missing"),
+    (b"[[steps]]\nnumber = 1.5", "steps[0]"),
+    (b"logs = [1]", "logs[0] is 1, expected an object"),
+    (b"robot = '\xe9'", "is not valid UTF-8 (byte 10); put the file back"),
+    (b"\xff\xfer\x00o\x00", "is not valid UTF-8 (byte 1)"),
+    (b"\x00" * 9, "expected a file that `modeler studio` wrote"),
+    (b"a = " + b"[" * 5000, "expected a file that `modeler studio` wrote"),
+    (None, "cannot be read"),
     ids=lambda value: str(value)[:40],
 )
-def test_a_file_that_is_no_project_is_told_in_one_line(
-    tmp_path: Path, content: bytes | None, expected: str
-) -> None:
+def test_a_file_that_is_no_project_is_told_in_one_line(tmp_path, content, expected):
     place = tmp_path / FILE
     if content is None:
         place.mkdir()
@@ -121,8 +135,11 @@ def test_stretches_are_written_as_commands_take_them() -> None:
 
 
 def _steps() -> Project:
-    way = ((1, 0, "simulate"), (2, 0, "fit"), (3, 2, "diagnose"), (4, 2, "add"), (5, 2, "diagnose"),
-           (6, 2, "add"), (7, 6, "compare"))  # fmt: skip
+    way = tuple(
+        read_rows("""
+        1 0 simulate; 2 0 fit; 3 2 diagnose; 4 2 add; 5 2 diagnose; 6 2 add; 7 6 compare
+    """)
+    )
     simulated = Task("simulate", file="logs/a.csv")
     steps = (Step(n, p, simulated if n == 1 else Task(verb)) for n, p, verb in way)
     return Project(steps=tuple(steps), current=6)
@@ -191,9 +208,7 @@ def test_a_project_of_this_user_is_known_wherever_it_lies(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("how", ["edited", "without a seal", "another key", "another user"])
-def test_a_project_of_somebody_else_is_only_read_until_it_is_accepted(
-    tmp_path: Path, monkeypatch, how: str
-) -> None:
+def test_a_project_of_somebody_else_is_only_read_until_it_is_accepted(tmp_path, monkeypatch, how):
     monkeypatch.setenv("MODELER_CACHE", str(tmp_path / "cache"))
     Workspace(tmp_path).save(_steps())
     place, key = tmp_path / FILE, tmp_path / "cache/studio.key"

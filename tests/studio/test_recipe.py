@@ -17,7 +17,7 @@ from modeler.studio import commands, export_screen
 from modeler.studio.project import Project, ProjectLog, Workspace
 from modeler.studio.tasks import LogPart, Step, Task, TimeRange, build_bookkeeping_words
 from tests.coroutines import run_coroutine
-from tests.rotation import slow_rotating
+from tests.rotation import slow_rotating, with_cases
 from tests.studio.hubs import hub_of, run_tasks
 
 LOGS = (
@@ -27,32 +27,33 @@ LOGS = (
     ProjectLog("logs/b.csv", test=(TimeRange(end=6.0),)),
 )
 PROJECT = Project(
-    robot="robot.toml", current=1, mapping=("q<j>=angle_{j}:deg",), logs=LOGS,
+    robot="robot.toml",
+    current=1,
+    mapping=("q<j>=angle_{j}:deg",),
+    logs=LOGS,
     without=("backlash", "time_delay", "stribeck@2"),
     steps=(Step(1, 0, Task("fit", (LogPart("x.csv"),))),),
-)  # fmt: skip
+)
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "task",
-    [
-        commands.fit(PROJECT),
-        commands.fit(PROJECT, (("method", "robust"), ("cutoff", 30.0), ("low_speed", 0))),
-        commands.fit(PROJECT, (("effects", ("viscous", "coulomb")), ("derivatives", "position"))),
-        commands.fit(PROJECT, (("joint", ""),)),
-        commands.compare_models(PROJECT, (1, 1)),
-        commands.diagnose(PROJECT),
-        commands.add(PROJECT, "spring", "1"),
-        commands.add(PROJECT, "auto", None),
-        commands.fleet(PROJECT, PROJECT.collect_parts("train"), "{machine}-{period}.csv"),
-        commands.inspect_log(PROJECT, "logs/b.csv"),
-        Task("page", step=1),
-        Task("export", to="mjcf"),
-        Task("simulate", file="logs/train.parquet", seed=1),
-        Task("new", joints="RPR", template="serial", convention="craig"),
-        Task("convert", file="originals/arm.urdf"),
-        Task("excite", between="spring@1,stribeck@2", duration=5.0, limit=("1=-0.3,0.3,0.5,4",)),
-    ],
+    commands.fit(PROJECT),
+    commands.fit(PROJECT, (("method", "robust"), ("cutoff", 30.0), ("low_speed", 0))),
+    commands.fit(PROJECT, (("effects", ("viscous", "coulomb")), ("derivatives", "position"))),
+    commands.fit(PROJECT, (("joint", ""),)),
+    commands.compare_models(PROJECT, (1, 1)),
+    commands.diagnose(PROJECT),
+    commands.add(PROJECT, "spring", "1"),
+    commands.add(PROJECT, "auto", None),
+    commands.fleet(PROJECT, PROJECT.collect_parts("train"), "{machine}-{period}.csv"),
+    commands.inspect_log(PROJECT, "logs/b.csv"),
+    Task("page", step=1),
+    Task("export", to="mjcf"),
+    Task("simulate", file="logs/train.parquet", seed=1),
+    Task("new", joints="RPR", template="serial", convention="craig"),
+    Task("convert", file="originals/arm.urdf"),
+    Task("excite", between="spring@1,stribeck@2", duration=5.0, limit=("1=-0.3,0.3,0.5,4",)),
     ids=lambda task: task.title,
 )
 def test_what_is_typed_parses(task):
@@ -217,8 +218,12 @@ def test_going_back_and_forth_loses_nothing(axis_project):
 def test_the_notebook_guesses_where_the_commands_guess():
     """Logs that are called differently are mapped each by its own names."""
     a, b, auto = (LogPart("a.csv"),), (LogPart("b.csv"),), ("auto",)
-    tasks = (Task("fit", a, mapping=auto), Task("add", a, b, auto, effect="spring"),
-             Task("diagnose", a, mapping=auto), Task("compare", b, mapping=auto))  # fmt: skip
+    tasks = (
+        Task("fit", a, mapping=auto),
+        Task("add", a, b, auto, effect="spring"),
+        Task("diagnose", a, mapping=auto),
+        Task("compare", b, mapping=auto),
+    )
     steps = tuple(Step(k, k - 1, task) for k, task in enumerate(tasks, start=1))
     told = export_screen.format_notebook(export_screen.Recipe(Path("here"), steps, {}, frozenset()))
     assert told.count("mapping=['auto']") == len(tasks)

@@ -96,11 +96,12 @@ rows = [
     ["2", "-90 deg", 0.4, 0.1, "q2"],
 ]
 """
-DH = CRAIG.replace("craig", "classical").replace(
-    '"j", "alpha", "a", "d", "theta"', '"j", "theta", "d", "a", "alpha"'
-).replace('0, 0, 0, "q1"', '"q1", 0.2, 0.3, "90 deg"').replace(
-    '"-90 deg", 0.4, 0.1, "q2"', '"q2", 0, 0.4, 0'
-)  # fmt: skip
+DH = (
+    CRAIG.replace("craig", "classical")
+    .replace('"j", "alpha", "a", "d", "theta"', '"j", "theta", "d", "a", "alpha"')
+    .replace('0, 0, 0, "q1"', '"q1", 0.2, 0.3, "90 deg"')
+    .replace('"-90 deg", 0.4, 0.1, "q2"', '"q2", 0, 0.4, 0')
+)
 MISTAKES = {
     "a name that is not declared": (ARM, 1, 4, "D9", (1, 4)),
     "no expression": (ARM, 2, 4, "0.4 +", (2, 4)),

@@ -16,6 +16,7 @@ from modeler.robot import (
 )
 from modeler.views.robot_skeleton import build_skeleton, compute_poses
 from tests.elementary_motions import row_pose
+from tests.rotation import with_cases
 
 
 def hand(kind: str, rows: np.ndarray, q: np.ndarray) -> np.ndarray:
@@ -47,10 +48,14 @@ def test_degrees_and_mm_by_their_headings(kind: str, comma: str, seed: int) -> N
     """As a German spreadsheet has them, and an English one; the joints' zeros are the thetas."""
     rng = np.random.default_rng([seed, len(kind)])
     count = int(rng.integers(3, 8))
-    rows = np.column_stack([
-        rng.choice([-90, 0, 90, 37.5], count), np.round(rng.uniform(-400, 400, count), 1),
-        rng.choice([-90, 0, 90, 12.25], count), np.round(rng.uniform(-400, 400, count), 2),
-    ])  # fmt: skip
+    rows = np.column_stack(
+        [
+            rng.choice([-90, 0, 90, 37.5], count),
+            np.round(rng.uniform(-400, 400, count), 1),
+            rng.choice([-90, 0, 90, 12.25], count),
+            np.round(rng.uniform(-400, 400, count), 2),
+        ]
+    )
     order = {"classical": (2, 3, 1, 0), "craig": (0, 1, 3, 2), "khalil": (0, 1, 2, 3)}[kind]
     lines = ["\t".join(HEADS[kind])]
     for j, row in enumerate(rows, start=1):
@@ -86,17 +91,15 @@ def test_letters_of_a_book_become_symbols() -> None:
     np.testing.assert_allclose(found, hand("craig", rows, np.zeros(6)), atol=1e-12)
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "text",
-    [
-        "j\ta(j)\t\u03c3j\t\u03b1j\tdj\t\u03b8j\trj\n1\t0\t0\t0\t0\t\u03b81\t0,2\n2\t1\t1\t\u03c0/2\t0\t0\tr2",
-        "j;a;sigma;alpha;d;theta;r\n1;0;0;0;0;q1;0.2\n2;1;P;90 deg;0;0;q2",
-        "| j | sigma | alpha | d | theta | r |\n|---|---|---|---|---|---|\n"
-        "| 1 | R | 0 | 0 | q1* | 0.2 |\n"
-        "| 2 | P | 90 | 0 | 0 | q2* |",
-        "$j$ & $\\sigma_j$ & $\\alpha_j$ & $d_j$ & $\\theta_j$ & $r_j$ \\\\\n"
-        "1 & 0 & 0 & 0 & $\\theta_1$ & 0.2 \\\\\n2 & 1 & $\\pi/2$ & 0 & 0 & $r_2$ \\\\",
-    ],
+    "j\ta(j)\t\u03c3j\t\u03b1j\tdj\t\u03b8j\trj\n1\t0\t0\t0\t0\t\u03b81\t0,2\n2\t1\t1\t\u03c0/2\t0\t0\tr2",
+    "j;a;sigma;alpha;d;theta;r\n1;0;0;0;0;q1;0.2\n2;1;P;90 deg;0;0;q2",
+    "| j | sigma | alpha | d | theta | r |\n|---|---|---|---|---|---|\n"
+    "| 1 | R | 0 | 0 | q1* | 0.2 |\n"
+    "| 2 | P | 90 | 0 | 0 | q2* |",
+    "$j$ & $\\sigma_j$ & $\\alpha_j$ & $d_j$ & $\\theta_j$ & $r_j$ \\\\\n"
+    "1 & 0 & 0 & 0 & $\\theta_1$ & 0.2 \\\\\n2 & 1 & $\\pi/2$ & 0 & 0 & $r_2$ \\\\",
 )
 def test_one_table_in_many_dresses(text: str) -> None:
     """Of a spreadsheet, with semicolons, of a page in Markdown, of a paper's LaTeX."""
@@ -132,18 +135,18 @@ def test_a_file_gets_another_table_and_keeps_the_rest() -> None:
     assert robot.has_effect("viscous", "1") and not robot.has_effect("viscous", "2")
 
 
-@pytest.mark.parametrize(
-    ("text", "line"),
-    [
-        ("", "pasted table: got no cells"),
-        ("hello", "pasted table: got no cells"),
-        ("alpha\td\ttheta\tr", "pasted table: got headings alone"),
-        ("alpha\td\ttheta\tr\tcolour\n0\t0\tq1\t0\tred", 'pasted table, headings: got "colour"'),
-        ("alpha\td\td\ttheta\n0\t0\t0\tq1",
-         "pasted table, headings: got alpha, d, d, theta; expected each once"),
-        ("\t".join("0" * 12), "pasted table: got 12 columns without headings"),
-    ],
-)  # fmt: skip
+@with_cases(
+    "text, line",
+    ("", "pasted table: got no cells"),
+    ("hello", "pasted table: got no cells"),
+    ("alpha\td\ttheta\tr", "pasted table: got headings alone"),
+    ("alpha\td\ttheta\tr\tcolour\n0\t0\tq1\t0\tred", 'pasted table, headings: got "colour"'),
+    (
+        "alpha\td\td\ttheta\n0\t0\t0\tq1",
+        "pasted table, headings: got alpha, d, d, theta; expected each once",
+    ),
+    ("\t".join("0" * 12), "pasted table: got 12 columns without headings"),
+)
 def test_what_cannot_be_a_table_is_told(text: str, line: str) -> None:
     with pytest.raises(RobotError) as told:
         parse_pasted_table(text)

@@ -109,8 +109,10 @@ def test_a_pasted_table_is_edited_and_nothing_is_lost(window, tmp_path) -> None:
             f"data.setData('text/plain', {block}); input.dispatchEvent("
             "new ClipboardEvent('paste', {clipboardData: data, cancelable: true})); }"
         )
-        w.page.wait_for_function("document.querySelector('.studio-cells input[data-row=\"1\"]"
-                                 "[data-column=\"3\"]').value === '0.5'")  # fmt: skip
+        w.page.wait_for_function(
+            'document.querySelector(\'.studio-cells input[data-row="1"]'
+            "[data-column=\"3\"]').value === '0.5'"
+        )
         assert cell(w, 1, "alpha").input_value() == "45 deg"
         assert w.complaints == []
 
@@ -144,9 +146,10 @@ def test_base_parameters_light_their_links_and_loops_stay_closed(window, tmp_pat
                 item.hover()
             terms = [term["parameter"] for term in entry["terms"]]
             places = [
-                k for k, row in enumerate(rows)
+                k
+                for k, row in enumerate(rows)
                 if any(t.endswith(row) and t[: -len(row)].isalpha() for t in terms)
-            ]  # fmt: skip
+            ]
             lit = "[...modelerShow.view.lit].sort((a, b) => a - b).join()"
             until(frame, f"{lit} === '{','.join(map(str, places))}'")
             shown = item.locator(".studio-terms")
@@ -179,8 +182,11 @@ def test_a_tie_of_a_diagnosis_becomes_the_words_of_a_motion() -> None:
     """Pairs on joints only, each once; the words are those that the command line takes."""
     from modeler.studio.motion_screen import find_questions
 
-    ties = (("load_friction", "2", "spring", "2"), ("spring", "2", "load_friction", "2"),
-            ("base_tilt", None, "offset", "1"))  # fmt: skip
+    ties = (
+        ("load_friction", "2", "spring", "2"),
+        ("spring", "2", "load_friction", "2"),
+        ("base_tilt", None, "offset", "1"),
+    )
     effects = [
         {"effect": one, "joint": j, "ties": [{"effect": other, "joint": k}]}
         for one, j, other, k in ties

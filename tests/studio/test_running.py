@@ -14,6 +14,7 @@ import pytest
 from modeler.studio.processes import INTERRUPTED, Outcome, RunningCommand
 from modeler.studio.thresholds import Thresholds
 from tests.coroutines import run_coroutine
+from tests.rotation import with_cases
 from tests.studio.texts import URDF
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="NOT CHECKED: process groups are POSIX")
@@ -62,14 +63,12 @@ def test_results_progress_and_seconds(tmp_path: Path) -> None:
     assert shares == sorted(shares) and 0 < outcome.seconds < 60
 
 
-@pytest.mark.parametrize(
-    ("words", "status", "told"),
-    [
-        (("derive", "no-such-robot"), 1, '"no-such-robot" is neither'),
-        (("derive", "wrist", "--no-such-option"), 2, "unknown option --no-such-option"),
-        (("dance",), 2, "unknown command dance"),
-        (("derive", "a\0b"), 1, "the work: cannot be started (embedded null byte)"),
-    ],
+@with_cases(
+    "words, status, told",
+    (("derive", "no-such-robot"), 1, '"no-such-robot" is neither'),
+    (("derive", "wrist", "--no-such-option"), 2, "unknown option --no-such-option"),
+    (("dance",), 2, "unknown command dance"),
+    (("derive", "a\0b"), 1, "the work: cannot be started (embedded null byte)"),
 )
 def test_an_error_is_the_line_that_the_command_prints(tmp_path, words, status, told) -> None:
     outcome, _ = run(tmp_path, *words)
@@ -124,11 +123,11 @@ def test_files_of_the_project_are_no_modules(tmp_path: Path, monkeypatch, given)
 
 
 @pytest.mark.rotating("long tests of studio")
-@pytest.mark.parametrize(
+@with_cases(
     "groups",
-    [pytest.param(True, id="groups"),
-     pytest.param(False, id="as on Windows", marks=pytest.mark.rotating)],
-)  # fmt: skip
+    pytest.param(True, id="groups"),
+    pytest.param(False, id="as on Windows", marks=pytest.mark.rotating),
+)
 def test_cancel_ends_all_and_leaves_nothing(tmp_path: Path, monkeypatch, sabotage, groups) -> None:
     """Where there are no groups of processes, the command ends itself when its pipe ends."""
     work = tmp_path / "work"

@@ -438,9 +438,7 @@ def test_a_second_window_reads_until_it_takes_over(tmp_path: Path) -> None:
 
 
 @pytest.mark.rotating("long tests of studio")
-def test_nothing_of_a_foreign_project_is_run_before_it_is_accepted(
-    arm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_nothing_of_a_foreign_project_is_run_before_it_is_accepted(arm, tmp_path, monkeypatch):
     monkeypatch.setenv("MODELER_CACHE", str(tmp_path / "theirs"))
 
     async def told(page: Any) -> None:

@@ -195,9 +195,11 @@ def test_the_residual_over_a_channel_is_that_of_numpy(comparison, channel: str) 
     samples, means = series
     np.testing.assert_allclose(np.sort(samples.x), np.sort(x), rtol=1e-12)
     assert isinstance(means, Means)
-    edges = np.unique(np.concatenate(
-        [np.linspace(x.min(), x.max(), 13), np.quantile(x, np.linspace(0.0, 1.0, 13))]
-    ))  # fmt: skip
+    edges = np.unique(
+        np.concatenate(
+            [np.linspace(x.min(), x.max(), 13), np.quantile(x, np.linspace(0.0, 1.0, 13))]
+        )
+    )
     expected = []
     for low, high in pairwise(edges):
         own = (x >= low) & ((x < high) | ((high == edges[-1]) & (x <= high)))
@@ -266,8 +268,10 @@ def test_the_viewer_drops_stale_questions_and_starts_again_after_a_kill(folder) 
             assert answers[0].joints == ("1", "2", "3")
             assert answers[1:-1] == [None] * 5 and answers[-1]["q1"][0][-1] >= 6.0
             assert len(beats) > 20  # the loop went on while the process started and predicted
-            for file, why in (("none.parquet", r"none\.parquet: cannot be read"),
-                              (__file__, "outside the folders")):  # fmt: skip
+            for file, why in (
+                ("none.parquet", r"none\.parquet: cannot be read"),
+                (__file__, "outside the folders"),
+            ):
                 with pytest.raises(ModelerError, match=why):
                     await viewer.ask("log_facts", file)
             facts, old = await viewer.ask("log_facts", "a.parquet"), [*viewer._pool._processes]

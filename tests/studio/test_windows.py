@@ -21,9 +21,7 @@ from tests.studio.window import served
 
 
 @slow_rotating("screens of the studio")
-def test_a_second_studio_reads_and_follows_and_takes_over_when_the_first_ends(
-    tmp_path: Path, window
-) -> None:
+def test_a_second_studio_reads_and_follows_and_takes_over_when_the_first_ends(tmp_path, window):
     folder = tmp_path / "arm"
     with served(folder) as one, served(folder) as other:
         writer, reader = window().open(one), window().open(other)
@@ -105,9 +103,7 @@ LINK = "left_arm_shoulder_upper_link_revolute_joint"
 
 
 @pytest.mark.rotating("screens of the studio")
-def test_no_page_is_wider_than_its_window_with_the_long_names_of_ros(
-    tmp_path: Path, window
-) -> None:
+def test_no_page_is_wider_than_its_window_with_the_long_names_of_ros(tmp_path, window):
     folder, log = tmp_path / "arm", f"logs/{'recording_of_the_left_arm_' * 4}.csv"
     (folder / "logs").mkdir(parents=True)
     (folder / "robot.toml").write_text(read_builtin_robot("two-link"), encoding="utf-8")

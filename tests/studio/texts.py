@@ -1,9 +1,15 @@
 """What a person brings along: a table of a spreadsheet, a file of another program."""
 
-GERMAN = "Achse\t\u03b8 [deg]\td [mm]\ta [mm]\t\u03b1 [deg]\n" + "\n".join([
-    "1\t0\t290\t0\t-90", "2\t-90\t0\t270,5\t0", "3\t0\t0\t70,5\t-90",
-    "4\t0\t302\t0\t90", "5\t0\t0\t0\t-90", "6\t180\t72\t0\t0",
-])  # fmt: skip
+GERMAN = "Achse\t\u03b8 [deg]\td [mm]\ta [mm]\t\u03b1 [deg]\n" + "\n".join(
+    [
+        "1\t0\t290\t0\t-90",
+        "2\t-90\t0\t270,5\t0",
+        "3\t0\t0\t70,5\t-90",
+        "4\t0\t302\t0\t90",
+        "5\t0\t0\t0\t-90",
+        "6\t180\t72\t0\t0",
+    ]
+)
 URDF = """<robot name="two">
 <link name="base"/>
 <link name="one"><inertial>

@@ -11,6 +11,7 @@ from modeler.derivation.derive import derive_model
 from modeler.derivation.geometry import fold_expression
 from modeler.derivation.graph import Graph
 from modeler.robot.read import parse_robot_text
+from tests.rotation import with_cases
 
 
 def chain(rows: int) -> str:
@@ -50,14 +51,12 @@ def test_the_work_grows_with_the_square_of_the_rows(monkeypatch):
 LETTERS = {name: sympy.Symbol(name, real=True) for name in "abcde"}
 
 
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        ("(a + b + c + d + e)**60", "has 635376 terms"),
-        ("*".join(f"(a + b + c + {k}*d)" for k in range(1, 6)), "has 1024 terms when written"),
-        ("(0.999**100)**100", "an exact number of .* bits"),
-        ("a*tan(pi/2)", "not finite"),
-    ],
+@with_cases(
+    "text, told",
+    ("(a + b + c + d + e)**60", "has 635376 terms"),
+    ("*".join(f"(a + b + c + {k}*d)" for k in range(1, 6)), "has 1024 terms when written"),
+    ("(0.999**100)**100", "an exact number of .* bits"),
+    ("a*tan(pi/2)", "not finite"),
 )
 def test_constants_that_would_not_end_are_refused(text, told):
     with pytest.raises(DerivationError, match=told):

@@ -16,9 +16,7 @@ HEAD = 'name = "{name}"\ntitle = "{name}"\ngravity = {gravity}\n[symbols]\n{symb
 COLUMNS = 'columns = ["j", "a", "sigma", "gamma", "b", "alpha", "d", "theta", "r"]\nrows = [\n'
 
 
-def robot_text(
-    name: str, rows: list[str], symbols: str = "", gravity: str = '[0, 0, "-g"]', rest: str = ""
-) -> str:
+def robot_text(name, rows, symbols="", gravity='[0, 0, "-g"]', rest=""):
     head = HEAD.format(name=name, gravity=gravity, symbols=f"g = 9.81\n{symbols}")
     return head + COLUMNS + "".join(f"[{row}],\n" for row in rows) + "]\n" + rest
 

@@ -40,13 +40,7 @@ def run_lines(lines: Sequence[str], values: Mapping[str, float]) -> dict[str, fl
     return found
 
 
-def known(
-    derivation: Derivation,
-    u: Sequence[float],
-    ud: Sequence[float] = (),
-    udd: Sequence[float] = (),
-    beta: Sequence[float] = (),
-) -> dict[str, float]:
+def known(derivation, u, ud=(), udd=(), beta=()):
     """What the lines read: lengths, base parameters, positions and speeds of the free joints."""
     values = dict(derivation.model.geometry.values)
     names = [joint.name for joint in derivation.model.robot.free_joints]
@@ -56,9 +50,7 @@ def known(
     return values | {n: float(x) for n, x in zip(bases, beta, strict=len(beta) > 0)}
 
 
-def torque(
-    found: Mapping[str, float], names: Sequence[str], ud: np.ndarray, udd: np.ndarray, chain: bool
-) -> np.ndarray:
+def torque(found, names, ud, udd, chain):
     """t_i = sum J_ij udd_j + sum_{j<=k} S_ijk ud_j ud_k + g_i + e_i.
 
     Args:
@@ -86,9 +78,7 @@ def torque(
     return tau
 
 
-def printed_coupling(
-    derivation: Derivation, found: Mapping[str, float]
-) -> tuple[np.ndarray, np.ndarray]:
+def printed_coupling(derivation, found):
     """J_t and b of u' = J_t q', u'' = J_t q'' + b, as the words above the lines say."""
     closure, names = derivation.model.closure, [j.name for j in derivation.model.robot.free_joints]
     assert closure is not None

@@ -6,24 +6,9 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import DataError, ModelerError, RobotError
-from modeler.formulas.known_values import (
-    check_known,
-    compare_cad,
-    compute_chi_squared_limit,
-    compute_z_limit,
-    parse_known_values,
-    read_cad_example,
-    read_cad_file,
-)
+from modeler.formulas import known_values, sufficient_sets
 from modeler.formulas.solve import derive_values, solve
-from modeler.formulas.sufficient_sets import (
-    EASE,
-    count_smallest_set,
-    find_easiest_set,
-    find_known_sets,
-    rate_sets,
-)
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 from tests.terms.cases import model_of
 from tests.terms.physical_cases import SEVEN, data_of, example, random_letters, slopes_of, system_of
 
@@ -113,16 +98,16 @@ def test_known_parameters_are_tested_and_the_test_is_honest():
     for _ in range(30):
         given = {x: truth[x] + sigmas.get(x, 0.0) * rng.normal() for x in solution.known}
         sample = data + L @ rng.normal(size=len(data))
-        rows = check_known(solution, sample, C, given, sigmas)
+        rows = known_values.check_known(solution, sample, C, given, sigmas)
         assert {"cm", "ct2", "bt1"} <= {row.letter for row in rows}
         z.append([row.z for row in rows])
     assert 0.8 < np.sqrt(np.mean(np.square(z))) < 1.2
     wrong = {x: truth[x] for x in solution.known} | {"ct2": truth["ct2"] * 1.05}
-    told = {row.letter: row for row in check_known(solution, data, C, wrong, sigmas)}
+    told = {row.letter: row for row in known_values.check_known(solution, data, C, wrong, sigmas)}
     assert told["ct2"].is_contradictory and told["ct2"].implied_value == pytest.approx(
         truth["ct2"], rel=0.01
     )
-    assert not check_known(solve(system, (*SEVEN, "cm")), data, C, wrong, sigmas)
+    assert not known_values.check_known(solve(system, (*SEVEN, "cm")), data, C, wrong, sigmas)
 
 
 def test_cad_false_alarms_are_as_rare_as_told():
@@ -132,7 +117,7 @@ def test_cad_false_alarms_are_as_rare_as_told():
     L, alarms = np.linalg.cholesky(C), 0
     for _ in range(150):
         sample = data + L @ rng.normal(size=len(data))
-        alarms += bool(compare_cad(system, sample, C, truth).suspicious)
+        alarms += bool(known_values.compare_cad(system, sample, C, truth).suspicious)
     assert alarms <= 6  # 1.5 expected
 
 
@@ -150,7 +135,7 @@ def test_a_wrong_cad_entry_is_found(seed):
     h = 1e-6
     slope = np.abs(data_of(system, truth | {letter: truth[letter] + h}) - data) / h
     size = 15 / np.max(slope / np.sqrt(np.diag(C)))
-    found = compare_cad(system, sample, C, truth | {letter: truth[letter] + size})
+    found = known_values.compare_cad(system, sample, C, truth | {letter: truth[letter] + size})
     named = {e.letters[0]: e for e in found.explanations if len(e.letters) == 1 and e.is_sufficient}
     assert letter in named, (letter, found.suspicious, found.explanations)
     assert named[letter].fitted_values[0] == pytest.approx(truth[letter], abs=size / 3)
@@ -162,7 +147,7 @@ def test_two_wrong_cad_entries_are_found_as_a_pair():
     data = data_of(system, truth)
     C = covariance_of(data, rng, 0.001)
     wrong = truth | {"at3": truth["at3"] * 1.1, "bJ12": truth["bJ12"] * 1.2}
-    found = compare_cad(system, data, C, wrong)
+    found = known_values.compare_cad(system, data, C, wrong)
     assert {"at3", "bJ12"} in [set(e.letters) for e in found.explanations]
     assert not [e for e in found.explanations if len(e.letters) == 1]
 
@@ -172,75 +157,92 @@ def test_cad_tolerances_widen_and_missing_values_are_told():
     data = data_of(system, truth)
     C = covariance_of(data, rng, 0.001)
     off = truth | {"at3": truth["at3"] * 1.05}
-    assert compare_cad(system, data, C, off).suspicious
-    loose = compare_cad(system, data, C, off, {"at3": 0.05 * abs(truth["at3"])})
+    assert known_values.compare_cad(system, data, C, off).suspicious
+    loose = known_values.compare_cad(system, data, C, off, {"at3": 0.05 * abs(truth["at3"])})
     assert not loose.suspicious
     partial = {x: v for x, v in truth.items() if x != "cJ22"}
-    left = compare_cad(system, data, C, partial, {}, {"PG1": "set aside"}).not_compared
+    left = known_values.compare_cad(system, data, C, partial, {}, {"PG1": "set aside"}).not_compared
     assert left == {"PG1": "set aside", "PJ1": "no CAD value of cJ22"}
-    assert compute_z_limit(1) == pytest.approx(2.576, abs=1e-3)
-    assert [compute_chi_squared_limit(k) for k in (0, 5, 17, 100)] == pytest.approx(
+    assert known_values.compute_z_limit(1) == pytest.approx(2.576, abs=1e-3)
+    assert [known_values.compute_chi_squared_limit(k) for k in (0, 5, 17, 100)] == pytest.approx(
         [0, 15.09, 33.41, 135.81], rel=3e-3
     )
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("am=nan", "--known, am: got 'nan'; expected a finite number"),
-        ("am=12+-", "--known, am, standard deviation: got ''; expected a finite number"),
-        ("am,am", "--known: am is given twice"),
-        ("aM=3", r'--known: got "aM" \(did you mean "am"\?\); expected physical parameters of wr'),
-    ],
+@with_cases(
+    "text, message",
+    ("am=nan", "--known, am: got 'nan'; expected a finite number"),
+    ("am=12+-", "--known, am, standard deviation: got ''; expected a finite number"),
+    ("am,am", "--known: am is given twice"),
+    ("aM=3", r'--known: got "aM" \(did you mean "am"\?\); expected physical parameters of wr'),
 )
 def test_known_parameters_as_they_are_typed(text, message):
-    given = parse_known_values(" am=12+-0.1, bm = 6e0 ,al1=0.2,cm,", system_of("wrist"))
+    given = known_values.parse_known_values(
+        " am=12+-0.1, bm = 6e0 ,al1=0.2,cm,", system_of("wrist")
+    )
     assert given.names == ("am", "bm", "cm")  # al1 has no effect
     assert given.values == {"am": 12.0, "bm": 6.0} and given.sigmas == {"am": 0.1}
     with pytest.raises(RobotError, match=message):
-        parse_known_values(text, system_of("wrist"))
+        known_values.parse_known_values(text, system_of("wrist"))
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("am = ", "cad.toml: no TOML"),
-        ("mass = 12", 'cad.toml: got "mass"'),
-        ("am = [12, 0.1, 3]", r"cad.toml, am: got \[12, 0.1, 3\]; expected \[value, standard dev"),
-        ("am = 'heavy'", "cad.toml, am: got 'heavy'; expected a finite number"),
-        ("relative_sigma = -1\nam = 2", "relative_sigma: got the standard deviation -1"),
-        ("al1 = 0.2", "cad.toml: no value of a parameter with an effect"),
-    ],
+@with_cases(
+    "text, message",
+    ("am = ", "cad.toml: no TOML"),
+    ("mass = 12", 'cad.toml: got "mass"'),
+    ("am = [12, 0.1, 3]", r"cad.toml, am: got \[12, 0.1, 3\]; expected \[value, standard dev"),
+    ("am = 'heavy'", "cad.toml, am: got 'heavy'; expected a finite number"),
+    ("relative_sigma = -1\nam = 2", "relative_sigma: got the standard deviation -1"),
+    ("al1 = 0.2", "cad.toml: no value of a parameter with an effect"),
 )
 def test_cad_files_that_are_none(tmp_path, text, message):
     path = tmp_path / "cad.toml"
     path.write_text(text)
     with pytest.raises(RobotError, match=message):
-        read_cad_file(path, system_of("wrist"))
+        known_values.read_cad_file(path, system_of("wrist"))
 
 
 def test_cad_files_as_they_are_written(tmp_path):
     path = tmp_path / "cad.toml"
     path.write_text("relative_sigma = 0.1\nam = 12\nbm = [6.0, 0.2]\n")
-    given = read_cad_file(path, system_of("wrist"))
+    given = known_values.read_cad_file(path, system_of("wrist"))
     assert given.values == {"am": 12.0, "bm": 6.0}
     assert given.sigmas == pytest.approx({"am": 1.2, "bm": 0.2})
     with pytest.raises(RobotError, match=r"none\.toml: cannot be read"):
-        read_cad_file(tmp_path / "none.toml", system_of("wrist"))
+        known_values.read_cad_file(tmp_path / "none.toml", system_of("wrist"))
     with pytest.raises(RobotError, match=r"here: the robot file has no values .*terms.example"):
-        read_cad_example(model_of("two-link").robot, system_of("two-link"), "here")
-    nominal = read_cad_example(model_of("wrist").robot, system_of("wrist"), "here")
+        known_values.read_cad_example(model_of("two-link").robot, system_of("two-link"), "here")
+    nominal = known_values.read_cad_example(model_of("wrist").robot, system_of("wrist"), "here")
     assert nominal.values["bl1"] == 0.1 and set(nominal.values) == set(system_of("wrist").letters)
 
 
 # Counted by another program: exact ranks modulo 2147483647 and 2147483629 at two points.
 CLASSES = {
-    (4, 2, 2): 44, (3, 3, 2): 286, (2, 4, 2): 605, (1, 5, 2): 462, (0, 6, 2): 88,
-    (4, 1, 3): 166, (3, 2, 3): 1441, (2, 3, 3): 3877, (1, 4, 3): 3801, (0, 5, 3): 1084,
-    (4, 0, 4): 129, (3, 1, 4): 1992, (2, 2, 4): 7538, (1, 3, 4): 9618, (0, 4, 4): 3587,
-    (3, 0, 5): 765, (2, 1, 5): 5251, (1, 2, 5): 9426, (0, 3, 5): 4559,
-    (2, 0, 6): 1043, (1, 1, 6): 3344, (0, 2, 6): 2203, (1, 0, 7): 285, (0, 1, 7): 285,
-}  # fmt: skip
+    (4, 2, 2): 44,
+    (3, 3, 2): 286,
+    (2, 4, 2): 605,
+    (1, 5, 2): 462,
+    (0, 6, 2): 88,
+    (4, 1, 3): 166,
+    (3, 2, 3): 1441,
+    (2, 3, 3): 3877,
+    (1, 4, 3): 3801,
+    (0, 5, 3): 1084,
+    (4, 0, 4): 129,
+    (3, 1, 4): 1992,
+    (2, 2, 4): 7538,
+    (1, 3, 4): 9618,
+    (0, 4, 4): 3587,
+    (3, 0, 5): 765,
+    (2, 1, 5): 5251,
+    (1, 2, 5): 9426,
+    (0, 3, 5): 4559,
+    (2, 0, 6): 1043,
+    (1, 1, 6): 3344,
+    (0, 2, 6): 2203,
+    (1, 0, 7): 285,
+    (0, 1, 7): 285,
+}
 
 
 def jacobian(system) -> np.ndarray:
@@ -261,7 +263,7 @@ def brute_force(system, size: int) -> list[tuple[str, ...]]:
 
 @pytest.mark.rotating("long tests of terms")
 def test_the_wrist_as_counted_elsewhere():
-    found = find_known_sets(system_of("wrist"))
+    found = sufficient_sets.find_known_sets(system_of("wrist"))
     assert (found.size, found.smallest, found.count, found.candidate_count) == (
         8,
         8,
@@ -275,24 +277,31 @@ def test_the_wrist_as_counted_elsewhere():
 
 
 def test_seven_never_suffice():
-    found = find_known_sets(system_of("wrist"), 7)
+    found = sufficient_sets.find_known_sets(system_of("wrist"), 7)
     assert (found.count, found.candidate_count, found.smallest) == (0, 480700, 8)
 
 
 def class_of(system, members):
     """(masses, lengths and rotor inertias, centres, inertias) of a set."""
-    eases = [EASE[system.kinds[x]] for x in members]
+    eases = [sufficient_sets.EASE[system.kinds[x]] for x in members]
     return sum(e < 2 for e in eases), eases.count(2), eases.count(3)
 
 
-@pytest.mark.parametrize(
-    ("name", "size"), [("two-link", 1), ("two-link", 2), ("two-link", 4), ("two-link", 8),
-                       ("scara", 8), ("emps", 0), ("emps", 1), ("weightless", 4)],
-)  # fmt: skip
+@with_cases(
+    "name, size",
+    ("two-link", 1),
+    ("two-link", 2),
+    ("two-link", 4),
+    ("two-link", 8),
+    ("scara", 8),
+    ("emps", 0),
+    ("emps", 1),
+    ("weightless", 4),
+)
 def test_counts_by_brute_force(name, size):
     system = system_of(name)
     expected = brute_force(system, size)
-    found = find_known_sets(system, size)
+    found = sufficient_sets.find_known_sets(system, size)
     assert found.count == len(expected)
     assert found.contains == {} or all(
         found.contains[x] == sum(x in s for s in expected) for x in system.letters
@@ -306,26 +315,30 @@ def test_counts_by_brute_force(name, size):
 
 @pytest.mark.parametrize("name", ["scara", *rotating("puma560", "orthoglide-2003")])
 def test_the_easiest_set_suffices_and_is_smallest(name):
-    system, known = system_of(name), set(find_easiest_set(system_of(name)))
+    system, known = system_of(name), set(sufficient_sets.find_easiest_set(system_of(name)))
     J = jacobian(system)
     others = [k for k, x in enumerate(system.letters) if x not in known]
-    assert len(known) == count_smallest_set(system) == len(system.letters) - len(others)
+    assert (
+        len(known)
+        == sufficient_sets.count_smallest_set(system)
+        == len(system.letters) - len(others)
+    )
     assert np.linalg.matrix_rank(J[:, others]) == len(others) == np.linalg.matrix_rank(J)
 
 
 def test_too_many_sets_and_sizes_that_are_none():
     with pytest.raises(ModelerError, match=r"puma560: about .*e\+13 sets to look at, more than 3e"):
-        find_known_sets(system_of("puma560"))
+        sufficient_sets.find_known_sets(system_of("puma560"))
     for size in (-1, 9):
         with pytest.raises(ModelerError, match=rf"got sets of {size}; expected 0 to 8"):
-            find_known_sets(system_of("two-link"), size)
+            sufficient_sets.find_known_sets(system_of("two-link"), size)
 
 
 def test_rating_against_finite_differences():
     """One set, one input at a time: change it by 1 %, solve the quantities by Newton's method."""
     system, truth = system_of("wrist"), example()
     known = ("am", "bm", "bl1", "bt2", "ct1", "bJ33", "cJ33", "cm")
-    (row,) = rate_sets(system, [known], truth)
+    (row,) = sufficient_sets.rate_sets(system, [known], truth)
     unknown = [x for x in system.letters if x not in known]
     at = [system.letters.index(x) for x in unknown]
     data = data_of(system, truth)

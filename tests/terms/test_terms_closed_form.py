@@ -10,7 +10,7 @@ from modeler.derivation.model import LinkColumn, SymbolicModel
 from modeler.effects.effect import EnergyBlock
 from modeler.formulas.closed_form import derive_closed_form
 from modeler.robot.read import parse_robot_text
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 from tests.terms.cases import SMALL, base_of, closed_of, edited_wrist, general, model_of, robot_text
 from tests.terms.closed_form_values import evaluate
 
@@ -113,9 +113,8 @@ def test_lengths_must_be_polynomials_of_letters(cell, message):
         derive_closed_form(derive_model(parse_robot_text(text, "slope")))
 
 
-@pytest.mark.parametrize(
-    ("new", "message"),
-    [('["J99"]', r"got J99, which is zero"), ("[11]", r"got \[11\]; expected a list")],
+@with_cases(
+    "new, message", ('["J99"]', r"got J99, which is zero"), ("[11]", r"got \[11\]; expected a list")
 )
 def test_wrong_choice_of_squares(new, message):
     with pytest.raises(RobotError, match=f"keep_sine_squares: {message}"):

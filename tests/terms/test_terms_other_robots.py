@@ -25,7 +25,7 @@ from modeler.formulas.physical import draw_random_point
 from modeler.formulas.ring import build_base_map
 from modeler.robot.read import parse_robot_text
 from tests.base.formulas import text_value
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 from tests.terms.cases import TEXTS, closed_of, robot_text, table_of
 from tests.terms.closed_form_values import evaluate
 from tests.terms.printed_lines import compiled, derived
@@ -82,9 +82,10 @@ def test_generic_letters_and_first_names_of_a_planar_arm():
 
 
 LEVER = robot_text(
-    "lever", ['"1", "0", 0, 0, 0, 0, 0, "q1", 0'],
+    "lever",
+    ['"1", "0", 0, 0, 0, 0, 0, "q1", 0'],
     rest='[physical.1]\nmass = "m"\ncentre = ["u - v", 0, 0]\ninertia = [0, 0, 0, 0, 0, 0]\n',
-)  # fmt: skip
+)
 
 
 def test_which_letters_are_felt():
@@ -103,17 +104,21 @@ def test_which_letters_are_felt():
         assert [dict(group) for group in table.identifiability.sums] == [sums]
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        (read_builtin_robot("wrist").replace('mass = "bm"', 'mass = "sin(bm)"'),
-         r'\[physical.2\]: got "sin\(bm\)"; expected a polynom'),
-        (read_builtin_robot("wrist").replace('mass = "bm"', 'mass = "1/bm"'),
-         r'\[physical.2\]: got "1/bm"; expected a polynomial'),
-        (TEXTS["weightless"].replace('"L"', '"m12"').replace("L = 0.5", "m12 = 0.5"),
-         r"symbol m12 is also the name of a physical parameter"),
-    ],
-)  # fmt: skip
+@with_cases(
+    "text, message",
+    (
+        read_builtin_robot("wrist").replace('mass = "bm"', 'mass = "sin(bm)"'),
+        r'\[physical.2\]: got "sin\(bm\)"; expected a polynom',
+    ),
+    (
+        read_builtin_robot("wrist").replace('mass = "bm"', 'mass = "1/bm"'),
+        r'\[physical.2\]: got "1/bm"; expected a polynomial',
+    ),
+    (
+        TEXTS["weightless"].replace('"L"', '"m12"').replace("L = 0.5", "m12 = 0.5"),
+        r"symbol m12 is also the name of a physical parameter",
+    ),
+)
 def test_letters_that_cannot_be_are_refused(text, message):
     model = derive_model(parse_robot_text(text, "robot"))
     with pytest.raises(RobotError, match=message):

@@ -12,16 +12,13 @@ import pytest
 from modeler.api import load
 from modeler.cli import main
 from modeler.derivation.relations import format_base_parameters
-from modeler.formulas.coefficients import (
-    format_closed_form,
-    format_coefficients,
-    format_determinant,
-)
+from modeler.formulas import coefficients
 from modeler.formulas.function_sheet import SheetPrinter, format_sheet
 from modeler.formulas.regressor_form import derive_regressor_form, derive_short_form
 from modeler.formulas.ring import LATEX, format_latex_symbol
 from tests.base.formulas import text_value, written_value
 from tests.effects.test_effects_in_c import REFERENCE, SHAPES, written
+from tests.rotation import with_cases
 from tests.terms.cases import closed_of, model_of, table_of
 from tests.terms.closed_form_values import evaluate
 from tests.terms.printed_lines import derived, known, run_lines
@@ -64,11 +61,11 @@ def expected(name: str) -> dict[str, float]:
 
 def test_a_closed_form_can_be_read_back_from_text_and_latex():
     closed, told, names = closed_of("odd"), expected("odd"), numbers_of("odd")[0]
-    printed = printed_functions(format_closed_form(closed))
+    printed = printed_functions(coefficients.format_closed_form(closed))
     for function, text in list(printed.items())[::8]:
         assert text_value(text, names) == pytest.approx(told[function], rel=1e-9)
     letters = {format_latex_symbol(key): value for key, value in names.items()}
-    blocks = format_closed_form(closed, "latex").split("\\begin{align*}\n")[1:]
+    blocks = coefficients.format_closed_form(closed, "latex").split("\\begin{align*}\n")[1:]
     assert len(blocks) >= len(closed.functions) == len(told)
     for block, function in list(zip(blocks, told, strict=False))[::4]:
         _, right = block.split("\n\\end{align*}")[0].split(" ={}& ")
@@ -78,19 +75,19 @@ def test_a_closed_form_can_be_read_back_from_text_and_latex():
 
 def test_tables_of_the_wrist():
     closed, table = closed_of("wrist"), table_of("wrist")
-    page = format_closed_form(closed, "markdown")
+    page = coefficients.format_closed_form(closed, "markdown")
     assert page.count("\n| `") == closed.monomial_count == 101
     assert "| `s2**2*s3**2` | `-XX3 + YY3` |" in page
-    assert "+ g*g_i" in format_closed_form(closed) and "+ g_i" in format_closed_form(
-        closed_of("odd")
-    )
-    assert format_determinant(table) == "-16"
-    lines = format_coefficients(table).splitlines()
+    assert "+ g*g_i" in coefficients.format_closed_form(
+        closed
+    ) and "+ g_i" in coefficients.format_closed_form(closed_of("odd"))
+    assert coefficients.format_determinant(table) == "-16"
+    lines = coefficients.format_coefficients(table).splitlines()
     assert len(lines) == 102 and lines[0].split()[:3] == ["name", "in", "monomial"]
     assert re.search(r"^PS3 +S112 +c2\*s2 +2\*PJ1 \+ 2\*PJ3 ", "\n".join(lines), re.M)
-    page = format_coefficients(table, "markdown")
+    page = coefficients.format_coefficients(table, "markdown")
     assert page.count("\n") == 103 and page.count("| independent |") == 17
-    latex = format_coefficients(table, "latex")
+    latex = coefficients.format_coefficients(table, "latex")
     assert latex.count(" ={}& ") == latex.count(r"\text{ in }") == 101
     assert r"\mathit{PS}_{3} ={}& 2\,\mathit{PJ}_{1} + 2\,\mathit{PJ}_{3} \quad" in latex
 
@@ -140,16 +137,12 @@ def check_log(log: str) -> None:
         assert complaint not in log
 
 
-@pytest.mark.parametrize(
+@with_cases(
     "words",
-    [
-        ("wrist", "--closed-form", "--terms", "--expanded", "--kane", "--energy", "--document"),
-        pytest.param(
-            ("orthoglide-2003", "--closed-form", "--regressor"), marks=pytest.mark.rotating
-        ),
-        pytest.param(("stewart", "--document"), marks=pytest.mark.slow),
-        ("every", *ALL_FORMS, "--document"),
-    ],
+    ("wrist", "--closed-form", "--terms", "--expanded", "--kane", "--energy", "--document"),
+    pytest.param(("orthoglide-2003", "--closed-form", "--regressor"), marks=pytest.mark.rotating),
+    pytest.param(("stewart", "--document"), marks=pytest.mark.slow),
+    ("every", *ALL_FORMS, "--document"),
     ids="".join,
 )
 def test_what_derive_prints_compiles(capsys, tmp_path, every, words) -> None:

@@ -197,9 +197,13 @@ def test_puma_is_the_published_one():
             f"{f}{label}": getattr(np, "sin" if f == "S" else "cos")(angle)
             for f in "SC"
             for label, angle in (
-                ("2", q[1]), ("3", q[2]), ("23", q[1] + q[2]), ("4", q[3]), ("5", q[4])
+                ("2", q[1]),
+                ("3", q[2]),
+                ("23", q[1] + q[2]),
+                ("4", q[3]),
+                ("5", q[4]),
             )
-        }  # fmt: skip
+        }
         for name, text in PUBLISHED.items():
             pairs[name].append((found[name], eval(text, {}, letters)))
     for name, values in pairs.items():

@@ -9,6 +9,7 @@ import sympy
 from modeler.core.errors import RobotError
 from modeler.core.files import write_atomically
 from modeler.derivation.base_parameters import derive_base_parameters
+from modeler.formulas import ring
 from modeler.formulas.coefficients import build_coefficient_table
 from modeler.formulas.print_checks import (
     build_exact_state,
@@ -21,13 +22,9 @@ from modeler.formulas.print_checks import (
     find_wrong_functions,
     write_terms_report,
 )
-from modeler.formulas.ring import (
-    format_linear_form,
-    format_physical,
-    invert_base_map,
-    partition_by_ratio,
-)
+from tests.rotation import with_cases
 from tests.terms.cases import base_of, edited_wrist, model_of, table_of
+from tests.texts import read_pairs
 
 REFERENCE = Path(__file__).resolve().parents[1] / "reference"
 
@@ -84,9 +81,9 @@ def test_definitions_in_the_papers_letters_and_in_base_parameters(table):
     static = table.closed.algebra.names[table.closed.algebra.moving :]
     for name, physical, base in definition_lines():
         own = table.by_name[name]
-        found = format_physical(own.physical, table.physical.names, table.physical.masses)
+        found = ring.format_physical(own.physical, table.physical.names, table.physical.masses)
         assert sympy.expand(sympy.sympify(found) - sympy.sympify(physical)) == 0, name
-        found = format_linear_form(own.base, table.base_names, static)
+        found = ring.format_linear_form(own.base, table.base_names, static)
         assert sympy.expand(sympy.sympify(found) - sympy.sympify(base)) == 0, name
 
 
@@ -100,7 +97,7 @@ def test_physical_parameters(table):
 
 
 def test_coefficients_fall_into_twenty_one_classes(table):
-    assert len(partition_by_ratio(table.relations)) == 21
+    assert len(ring.partition_by_ratio(table.relations)) == 21
 
 
 def test_map_to_the_base_parameters_and_back(table):
@@ -108,13 +105,12 @@ def test_map_to_the_base_parameters_and_back(table):
     assert found.rows == table.relations.independent
     assert len(found.columns) == 17
     assert abs(int(found.determinant.LC)) == 16 and found.determinant.is_ground
-    expected = {
-        "ZZ1R": "PJ7-PJ16", "MX1": "-PG5", "MY1R": "-PG6", "XX2R": "PJ1+PJ3+PJ16", "XY2": "PJ6/2",
-        "XZ2": "PJ10-PJ2/2", "YZ2": "PJ13", "ZZ2R": "PJ1+PJ19", "MX2": "-PG4", "MY2R": "PG1",
-        "XX3R": "-PJ1", "XY3": "-PJ2/2", "XZ3": "PJ5/2-bl1*PG3", "YZ3": "bl1*PG2-PJ4/2",
-        "ZZ3": "PJ16", "MX3": "-PG3", "MY3": "PG2",
-    }  # fmt: skip
-    inverse = invert_base_map(found, table.closed.algebra.static_ring)
+    expected = read_pairs("""
+        ZZ1R PJ7-PJ16 MX1 -PG5 MY1R -PG6 XX2R PJ1+PJ3+PJ16 XY2 PJ6/2 XZ2 PJ10-PJ2/2 YZ2 PJ13
+        ZZ2R PJ1+PJ19 MX2 -PG4 MY2R PG1 XX3R -PJ1 XY3 -PJ2/2 XZ3 PJ5/2-bl1*PG3 YZ3 bl1*PG2-PJ4/2
+        ZZ3 PJ16 MX3 -PG3 MY3 PG2
+    """)
+    inverse = ring.invert_base_map(found, table.closed.algebra.static_ring)
     assert inverse is not None and inverse.keys() == expected.keys()
     plain = {s: sympy.Symbol(s.name) for s in sympy.symbols("g al1 bl1", real=True)}
     for name, row in inverse.items():
@@ -187,9 +183,9 @@ def test_seventeen_not_eighteen(table):
 def test_two_wrists_with_the_same_coefficients(table):
     check = check_twin(table)
     assert check.equal == 101 and not check.different
-    assert set(check.changed) == {
-        "cm", "aJ11", "bt1", "bJ11", "bJ12", "bJ13", "bJ22", "ct2", "ct3", "cJ11", "cJ22", "cJ23",
-    }  # fmt: skip
+    assert set(check.changed) == set(
+        "cm aJ11 bt1 bJ11 bJ12 bJ13 bJ22 ct2 ct3 cJ11 cJ22 cJ23".split()
+    )
 
 
 def test_a_twin_that_is_none_is_found_out():
@@ -208,54 +204,45 @@ def test_wrist_friction_as_printed_takes_the_wrong_power(table):
     assert check.derived_power == check.dissipated != check.printed_power
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "message"),
-    [
-        ("coulomb = [3, 2, 1.2]", "", r"printed, coupling: coulomb is missing; expected motor_fr"),
-        ("coulomb = [3, 2, 1.2]", "coulomb = [3, 2]", r"coupling: got 3 rows of 3, 3, 3, 2 coul"),
-        ("coulomb = [3, 2, 1.2]", 'coulomb = [3, 2, "x"]', r"coulomb, entry 3: got 'x'; expected"),
-        ("count = 96", "count = 96.5", r"printed, count: got 96.5; expected a number"),
-        ('missing = "PX" ', "missing = 3 ", r"missing: got 3; expected text"),
-        ('cm = "21/5"', "cm = [1]", r"twin, cm: got \[1\]; expected a number"),
-        ('missing = "PX" ', 'mising = "PX" ', r"\[terms\]: unknown key mising; expected source"),
-        ("J33 = [1]", "J33 = 1", r"got 1; expected a list"),
-        ("J33 = [1]", 'J33 = ["1 +"]', r'monomials, J33: got "1 \+", which cannot be read'),
-        ("J33 = [1]", 'J33 = ["c1"]', r'monomials, J33: got "c1"; expected each at most once: 1'),
-        ("J33 = [1]", "J34 = [1]", r"monomials, J34: no such function; the functions are g1"),
-        ("am = 12", 'am = "12 kg"', r"example, am: got '12 kg'; expected a number such as 12"),
-        ('ct2 = ["-PG2", "cm"]', "ct2 = [1, 2, 3]", r"solutions, ct2: got 3 entries; expected"),
-    ],
+@with_cases(
+    "old, new, message",
+    ("coulomb = [3, 2, 1.2]", "", r"printed, coupling: coulomb is missing; expected motor_fr"),
+    ("coulomb = [3, 2, 1.2]", "coulomb = [3, 2]", r"coupling: got 3 rows of 3, 3, 3, 2 coul"),
+    ("coulomb = [3, 2, 1.2]", 'coulomb = [3, 2, "x"]', r"coulomb, entry 3: got 'x'; expected"),
+    ("count = 96", "count = 96.5", r"printed, count: got 96.5; expected a number"),
+    ('missing = "PX" ', "missing = 3 ", r"missing: got 3; expected text"),
+    ('cm = "21/5"', "cm = [1]", r"twin, cm: got \[1\]; expected a number"),
+    ('missing = "PX" ', 'mising = "PX" ', r"\[terms\]: unknown key mising; expected source"),
+    ("J33 = [1]", "J33 = 1", r"got 1; expected a list"),
+    ("J33 = [1]", 'J33 = ["1 +"]', r'monomials, J33: got "1 \+", which cannot be read'),
+    ("J33 = [1]", 'J33 = ["c1"]', r'monomials, J33: got "c1"; expected each at most once: 1'),
+    ("J33 = [1]", "J34 = [1]", r"monomials, J34: no such function; the functions are g1"),
+    ("am = 12", 'am = "12 kg"', r"example, am: got '12 kg'; expected a number such as 12"),
+    ('ct2 = ["-PG2", "cm"]', "ct2 = [1, 2, 3]", r"solutions, ct2: got 3 entries; expected"),
 )
 def test_mistakes_in_terms(old, new, message):
     with pytest.raises(RobotError, match=message):
         table_with((old, new))
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "check", "message"),
-    [
-        (
-            'J33 = "PJ22"',
-            'J33 = "PJ77"',
-            find_wrong_functions,
-            r"functions, J33.*where PJ77 is unknown",
-        ),
-        (
-            'J33 = "PJ22"',
-            'J33 = "sin(PJ22)"',
-            find_wrong_functions,
-            r"J33: got .*expected a polynomial",
-        ),
-        (
-            'J33 = "PJ22"',
-            'J77 = "PJ22"',
-            find_wrong_functions,
-            r"functions: there is no function J77",
-        ),
-        ('PG2 = "-cm*ct2"', 'PG2 = "-cm*xx"', find_wrong_definitions, r"PG2.*where xx is unknown"),
-        ('ct3 = ["-PG3", "cm"]', 'cx3 = "PG3"', check_solutions, r"cx3 is no physical parameter"),
-        ('"PS3",', '"PS99",', check_independent, r"independent: there is no coefficient PS99"),
-    ],
+@with_cases(
+    "old, new, check, message",
+    (
+        'J33 = "PJ22"',
+        'J33 = "PJ77"',
+        find_wrong_functions,
+        r"functions, J33.*where PJ77 is unknown",
+    ),
+    (
+        'J33 = "PJ22"',
+        'J33 = "sin(PJ22)"',
+        find_wrong_functions,
+        r"J33: got .*expected a polynomial",
+    ),
+    ('J33 = "PJ22"', 'J77 = "PJ22"', find_wrong_functions, r"functions: there is no function J77"),
+    ('PG2 = "-cm*ct2"', 'PG2 = "-cm*xx"', find_wrong_definitions, r"PG2.*where xx is unknown"),
+    ('ct3 = ["-PG3", "cm"]', 'cx3 = "PG3"', check_solutions, r"cx3 is no physical parameter"),
+    ('"PS3",', '"PS99",', check_independent, r"independent: there is no coefficient PS99"),
 )
 def test_mistakes_in_the_quoted_print(old, new, check, message):
     table = table_with((old, new))

@@ -1,6 +1,6 @@
 """What a learned law, and equations that are proposed, do beside the true form of a law."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 import numpy as np
 
@@ -67,9 +67,7 @@ def what_is_proposed(own: Machine) -> str:
     return f"{own.name}: {'; '.join(told) or 'nothing'}"
 
 
-def column_of(
-    definition: Mapping[str, object], shapes: Mapping[str, float], names: list[str], j: int
-) -> Column:
+def column_of(definition, shapes, names, j):
     """The columns of a definition of `[own_effects]` on joint j, at these shapes or its own."""
     effect = read_definition(
         "found", TomlCell("found").with_value(dict(definition)), {}, joints=names

@@ -17,11 +17,11 @@ import numpy as np
 
 from tests.chain import chain_of
 from tests.hidden_effects.case import ran_or_impossible
-from tests.hidden_effects.drives import Scales, equip, measured_noise
+from tests.hidden_effects.drives import equip, measured_noise
 from tests.hidden_effects.effects import BASE, Draw, Impossible
 from tests.hidden_effects.held_out_effects import STEEPEST
 from tests.hidden_effects.motion import draw_bounds, motion
-from tests.hidden_effects.plant import TICK, Plant, rate
+from tests.hidden_effects.plant import TICK, rate
 from tests.hidden_effects.robot_file import robot_text
 from tests.hidden_effects.robots import draw_arm
 from tests.hidden_effects.sensor_kinds import FINE, SENSORS
@@ -117,9 +117,7 @@ def _drawn(law: str, rng: np.random.Generator, encoder: str, place: Path) -> Tru
     return truth
 
 
-def with_law(
-    law: str, plant: Plant, scales: Scales, path: np.ndarray, rng: np.random.Generator
-) -> TrueForm:
+def with_law(law, plant, scales, path, rng):
     """Change the plant: a law of a share of the torque of its joint along the path."""
     kind, draw = LAWS[law], Draw(plant, scales, rng)
     other = neighbour_of(draw) if kind.neighbour else draw.joint
