@@ -45,12 +45,12 @@ def measured(lines: list[Line], quick: bool, place: Path | None = None) -> dict[
     for line in lines:
         for key, value in _values(line, quick):
             report["values"][key.name] = None if isinstance(value, Missing) else value
-            told = f"missing: {value}"
+            text = f"missing: {value}"
             if isinstance(value, Missing):
                 report["missing"][key.name] = str(value)
             else:
-                told = f"{value:.4g} {key.unit}"
-            print(f"{key.name:<50}{told}", flush=True)
+                text = f"{value:.4g} {key.unit}"
+            print(f"{key.name:<50}{text}", flush=True)
         report["seconds"] = round(time.perf_counter() - start, 1)
         if place is not None:
             place.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")

@@ -36,14 +36,14 @@ LOGS = {
 
 
 def _measure(quick: bool) -> Mapping[str, float]:
-    found = {}
+    table = {}
     for case in CASES:
         with tempfile.TemporaryDirectory() as scratch:
             used = _told(case, Path(scratch), _SHORT if quick else case.seconds)
         for command, cost in used.items():
-            found[f"{command}_seconds.{case.name}"] = cost.wall
-            found[f"{command}_peak_mb.{case.name}"] = cost.peak
-    return found
+            table[f"{command}_seconds.{case.name}"] = cost.wall
+            table[f"{command}_peak_mb.{case.name}"] = cost.peak
+    return table
 
 
 def _told(case: _Case, folder: Path, seconds: float) -> dict[str, Cost]:
@@ -76,20 +76,20 @@ def _keys() -> tuple[Key, ...]:
     keys = []
     for case in CASES:
         for command in ("fit", "compare", "diagnose"):
-            own = command == "diagnose"
+            mask = command == "diagnose"
             keys += [
                 Key(
                     f"{command}_seconds.{case.name}",
                     "s",
                     f"`modeler {command}` {LOGS[command]}.",
-                    case.must if own else None,
-                    case.aim if own else None,
+                    case.must if mask else None,
+                    case.aim if mask else None,
                 ),
                 Key(
                     f"{command}_peak_mb.{case.name}",
                     "MB",
                     "The same: largest resident memory.",
-                    case.most if own else None,
+                    case.most if mask else None,
                 ),
             ]
     return tuple(keys)

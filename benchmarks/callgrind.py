@@ -81,10 +81,10 @@ def _counted(folder: Path, main: Path, sources: tuple[str, ...], calls: int) -> 
         text=True,
         check=True,
     )
-    found = re.search(r"Collected : (\d+)", said.stderr)
-    if found is None:
+    result = re.search(r"Collected : (\d+)", said.stderr)
+    if result is None:
         raise Missing("valgrind gave no count")
-    return int(found[1])
+    return int(result[1])
 
 
 LINES = (

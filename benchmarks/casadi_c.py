@@ -45,11 +45,11 @@ def peer(name: str, folder: Path) -> Path:
         raise Missing("no casadi here") from why
     derivation = derive(lossy(name))
     functions, _ = build_casadi_functions(derivation.model, derivation.base)
-    own = next(f for f in functions if f.name() == "base_regressor")
+    item = next(f for f in functions if f.name() == "base_regressor")
     lines = casadi.CodeGenerator("peer", {"with_header": False})
-    lines.add(own)
+    lines.add(item)
     shim = _PEER.format(
-        size=own.nnz_out(0), work=own.sz_w(), inputs=own.sz_arg(), outputs=own.sz_res()
+        size=item.nnz_out(0), work=item.sz_w(), inputs=item.sz_arg(), outputs=item.sz_res()
     )
     (folder / "peer.c").write_text(lines.dump() + shim, encoding="utf-8")
     tools, library = find_toolchain(), folder / "peer.so"
@@ -62,7 +62,7 @@ def peer(name: str, folder: Path) -> Path:
 
 
 def _measure(quick: bool) -> Mapping[str, float | Missing]:
-    found: dict[str, float | Missing] = {}
+    table: dict[str, float | Missing] = {}
     for name in ROBOTS:
         keys = (f"casadi_ns.{name}", f"scalar_vs_casadi.{name}")
         with tempfile.TemporaryDirectory() as scratch:
@@ -72,7 +72,7 @@ def _measure(quick: bool) -> Mapping[str, float | Missing]:
                 library = peer(name, folder)
                 program = program_of(name, folder)
             except Missing as why:
-                found |= dict.fromkeys(keys, why)
+                table |= dict.fromkeys(keys, why)
                 continue
             said = subprocess.run(
                 [program, str(_FEW if quick else _ROUNDS), "none", library],
@@ -80,9 +80,9 @@ def _measure(quick: bool) -> Mapping[str, float | Missing]:
                 text=True,
                 check=True,
             )
-        own, *_, theirs = (float(x.rpartition(" ")[2]) for x in said.stdout.splitlines())
-        found |= dict(zip(keys, (theirs, theirs / own), strict=True))
-    return found
+        items, *_, theirs = (float(x.rpartition(" ")[2]) for x in said.stdout.splitlines())
+        table |= dict(zip(keys, (theirs, theirs / items), strict=True))
+    return table
 
 
 LINES = (

@@ -62,10 +62,10 @@ def cost(command: Sequence[str]) -> Cost:
 
 def _installed() -> dict[str, str]:
     """As where the package was installed: its bytecode is there, from the second run on."""
-    found = dict(os.environ)
-    if found.pop("PYTHONDONTWRITEBYTECODE", ""):
-        found["PYTHONPYCACHEPREFIX"] = str(Path(tempfile.gettempdir()) / "modeler-bytecode")
-    return found
+    table = dict(os.environ)
+    if table.pop("PYTHONDONTWRITEBYTECODE", ""):
+        table["PYTHONPYCACHEPREFIX"] = str(Path(tempfile.gettempdir()) / "modeler-bytecode")
+    return table
 
 
 def least(

@@ -43,13 +43,13 @@ def least_distance(skeleton: Skeleton, solids: CollisionGeometry, motion: Exciti
     for q in motion.series.resample_at(times).evaluate_motion(motion.x)[0]:
         frames = compute_poses(skeleton, q)
         placed = []
-        for (shape, own), carrier in zip(shapes, solids.carriers, strict=False):
-            T = own if carrier < 0 else frames[moving[carrier]] @ own
+        for (shape, item), carrier in zip(shapes, solids.carriers, strict=False):
+            T = item if carrier < 0 else frames[moving[carrier]] @ item
             placed.append((shape, coal.Transform3s(T[:3, :3], T[:3, 3])))
         for one, other in solids.pairs:
             result.clear()
-            told = coal.distance(*placed[one], *placed[other], request, result)
-            least = min(least, told)
+            text = coal.distance(*placed[one], *placed[other], request, result)
+            least = min(least, text)
     return least
 
 

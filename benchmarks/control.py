@@ -58,17 +58,17 @@ _PEERS: Mapping[str, str] = {
 
 
 def _measure(quick: bool) -> Mapping[str, float | Missing]:
-    found: dict[str, float | Missing] = {}
+    table: dict[str, float | Missing] = {}
     for name in ROBOTS:
         times = nanoseconds(name, _FEW if quick else _ROUNDS)
         for function, (ours, theirs, apart) in times.items():
-            found[f"control_ns.{function}.{name}"] = ours
+            table[f"control_ns.{function}.{name}"] = ours
             if theirs:
                 key = f"control_vs_pinocchio.{function}.{name}"
-                found[key] = theirs / ours
+                table[key] = theirs / ours
                 if not apart <= _AGREES:
-                    found[key] = Missing(f"the outputs are {apart:.1e} apart")
-    return found
+                    table[key] = Missing(f"the outputs are {apart:.1e} apart")
+    return table
 
 
 def nanoseconds(name: str, rounds: int) -> dict[str, tuple[float, float, float]]:

@@ -54,8 +54,8 @@ def bytes_of(name: str, precision: str) -> float:
         )
     rows = [line.split() for line in said.stdout.splitlines() if line.startswith(".")]
     dense = f".text.{prefix}_base_regressor"
-    kept = [row for row in rows if row[0].startswith((".text", ".rodata")) and row[0] != dense]
-    return float(sum(int(row[1]) for row in kept))
+    rest = [row for row in rows if row[0].startswith((".text", ".rodata")) and row[0] != dense]
+    return float(sum(int(row[1]) for row in rest))
 
 
 LINES = (

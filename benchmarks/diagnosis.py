@@ -44,12 +44,12 @@ def logs_of(folder: Path, duration: float) -> list[Log]:
     settings = SimulationSettings(
         duration=duration, hidden=(parse_hidden_effect(f"{EFFECT}@{JOINT}"),)
     )
-    found = []
+    values = []
     for seed in (1, 2):
         place = folder / f"{seed}.parquet"
         write_log(place, simulate(robot, dataclasses.replace(settings, seed=seed)))
-        found.append(read_log(place, spec))
-    return found
+        values.append(read_log(place, spec))
+    return values
 
 
 def measure(train: Log, other: Log) -> dict[str, float]:
@@ -105,7 +105,7 @@ def diagnose_times(
         robots: built-in ones.
         duration: of the log that a model is fitted to and asked about, s, at 1 kHz.
     """
-    found = {}
+    table = {}
     for name in robots:
         with tempfile.TemporaryDirectory() as folder:
             log, model = Path(folder) / "log.parquet", Path(folder) / "model.json"
@@ -114,8 +114,8 @@ def diagnose_times(
             )
             write_log(log, simulate(load(name), hide))
             _command("fit", name, log, "--out", model)
-            found[name] = _command("diagnose", model, log)
-    return found
+            table[name] = _command("diagnose", model, log)
+    return table
 
 
 def _command(*words: str | Path) -> dict[str, float]:

@@ -77,13 +77,13 @@ def main() -> int:
     if asked.compare:
         before, after = (json.loads(Path(f).read_text(encoding="utf-8")) for f in asked.compare)
         return told(before, after)
-    found = {}
+    table = {}
     with tempfile.TemporaryDirectory() as scratch:
         for name, words in commands(Path(scratch), Path(asked.data).resolve()):
             if any(fnmatch.fnmatch(name, f"{pattern}*") for pattern in asked.only):
-                found[name] = _answer(words, Path(asked.tree).resolve(), Path(scratch))
-                print(name, "" if isinstance(found[name], dict) else found[name], flush=True)
-    Path(asked.json).write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+                table[name] = _answer(words, Path(asked.tree).resolve(), Path(scratch))
+                print(name, "" if isinstance(table[name], dict) else table[name], flush=True)
+    Path(asked.json).write_text(json.dumps(table, indent=1) + "\n", encoding="utf-8")
     return 0
 
 
@@ -146,9 +146,9 @@ def told(before: dict[str, Any], after: dict[str, Any]) -> int:
     for name in after:
         if name not in before or name in failed:
             continue
-        found = sorted(differences(before[name], after[name]), key=lambda d: -d[0])
-        most = found[0][0] if found else 0.0
-        far = [difference for difference in found if difference[0] > TOLERANCE]
+        names = sorted(differences(before[name], after[name]), key=lambda d: -d[0])
+        most = names[0][0] if names else 0.0
+        far = [difference for difference in names if difference[0] > TOLERANCE]
         print(f"{name:<40}{'DIFFERS' if far else 'equal'} {most:.1e}")
         for _, where, text in far[:MOST]:
             print(f"    {where}: {text}")

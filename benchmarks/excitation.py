@@ -153,9 +153,9 @@ def families(names: list[str]) -> None:
                 harmonics = choose_harmonics(bounds, 10.0)
                 wish = MotionRequest(10.0, harmonics, "condition", starts=3, family=family)
                 begun = time.process_time()
-                found = design_motion(compiled, bounds, wish)
+                result = design_motion(compiled, bounds, wish)
                 seconds = time.process_time() - begun
-                cells.append(f"{found.quality.condition:>{wide}.3g}{seconds:>8.1f}")
+                cells.append(f"{result.quality.condition:>{wide}.3g}{seconds:>8.1f}")
         print(f"{name:<10}" + "".join(cells), flush=True)
 
 

@@ -30,10 +30,10 @@ class _Weighed(Workers):
     def map_jobs(
         self, work: Any, shared: Any, jobs: Sequence[Any], done: Any = ignore_progress
     ) -> list[Any]:
-        found = self._workers.map_jobs(work, shared, jobs, done)
-        weights = [len(pickle.dumps(thing, 5)) for thing in (shared, *jobs, *found)]
+        result = self._workers.map_jobs(work, shared, jobs, done)
+        weights = [len(pickle.dumps(thing, 5)) for thing in (shared, *jobs, *result)]
         self.moved = self._count * weights[0] + sum(weights[1:])
-        return found
+        return result
 
 
 @contextlib.contextmanager
@@ -46,15 +46,15 @@ def _workers(count: int) -> Iterator[Workers]:
         from distributed import Client, LocalCluster
     except ImportError:
         raise Missing("Dask is not installed") from None
-    own = {"threads_per_worker": 1, "dashboard_address": ":0"}
-    with LocalCluster(n_workers=count, **own) as cluster, Client(cluster) as client:
+    local = {"threads_per_worker": 1, "dashboard_address": ":0"}
+    with LocalCluster(n_workers=count, **local) as cluster, Client(cluster) as client:
         yield Cluster(client)
 
 
 def _measure(quick: bool) -> Mapping[str, float]:
     robot = load(ROBOT)
     emitted = generate(derive(robot))
-    compiled, found, fleets = compile_model(emitted), dict[str, float](), []
+    compiled, values, fleets = compile_model(emitted), dict[str, float](), []
     with tempfile.TemporaryDirectory() as folder:
         places = [Path(folder) / f"r{k % 2}" / f"day{k // 2}.parquet" for k in range(LOGS)]
         for seed, place in enumerate(places[:_FEW] if quick else places):
@@ -62,23 +62,23 @@ def _measure(quick: bool) -> Mapping[str, float]:
             write_log(place, simulate(robot, duration=_SECONDS, seed=seed, parameter_seed=1))
         named = name_logs([(str(place), "") for place in places if place.exists()], None)
         size = sum(Path(each.place).stat().st_size for each in named)
-        found["fleet_log_kb"] = size / _THOUSAND / len(named)
+        values["fleet_log_kb"] = size / _THOUSAND / len(named)
         for count in (0, *CLUSTERS):
             name = f"dask{count}" if count else "here"
             with _workers(count) as workers:
                 weighed, taken = _Weighed(workers, count), []
                 for _ in range(_TIMES):  # the first time workers load the package
                     begun = time.perf_counter()
-                    given = reduce_logs(compiled, emitted, named, weighed)
+                    inputs = reduce_logs(compiled, emitted, named, weighed)
                     taken.append(time.perf_counter() - begun)
-            fleets.append(analyse_fleet(emitted.spec, given).findings)
-            found[f"fleet_seconds.{name}"] = min(taken) / len(named)
+            fleets.append(analyse_fleet(emitted.spec, inputs).findings)
+            values[f"fleet_seconds.{name}"] = min(taken) / len(named)
             if count:
-                found[f"fleet_first_seconds.{name}"] = taken[0] / len(named)
-                found[f"fleet_moved_kb.{name}"] = weighed.moved / _THOUSAND / len(named)
+                values[f"fleet_first_seconds.{name}"] = taken[0] / len(named)
+                values[f"fleet_moved_kb.{name}"] = weighed.moved / _THOUSAND / len(named)
     if any(one != fleets[0] for one in fleets):
         raise Missing("results depend on who works")
-    return found
+    return values
 
 
 def _keys() -> Iterator[Key]:

@@ -49,26 +49,28 @@ def _plain() -> dict[str, str]:
 
 def _measure(quick: bool) -> Mapping[str, float | Missing]:
     module, prefix = emitted(ROBOT), emitted(ROBOT).spec.prefix
-    tools, found = find_toolchain(), dict[str, float | Missing]()
+    tools, values = find_toolchain(), dict[str, float | Missing]()
     with tempfile.TemporaryDirectory() as scratch:
         ours = Path(scratch) / "ours"
         write_emitted(module, ours)
         units = [str(ours / n) for n in module.spec.sources if n.endswith(".c")]
         programs = {"project": _program(Path(scratch) / "project", tools, ours, units)}
         for name, build in WAYS.items():
-            own = Path(scratch) / name
-            write_emitted(module, own)
+            actual = Path(scratch) / name
+            write_emitted(module, actual)
             try:
-                library = build(own, prefix)
+                library = build(actual, prefix)
             except Missing as why:
-                found[f"emitted_folder_vs_project_flags.{name}"] = why
+                values[f"emitted_folder_vs_project_flags.{name}"] = why
                 continue
-            programs[name] = _program(Path(scratch) / f"{name}-program", tools, own, [str(library)])
+            programs[name] = _program(
+                Path(scratch) / f"{name}-program", tools, actual, [str(library)]
+            )
         times = _interleaved(programs, _FEW if quick else _ROUNDS)
     for name in WAYS:
         if name in times:
-            found[f"emitted_folder_vs_project_flags.{name}"] = times["project"] / times[name]
-    return found
+            values[f"emitted_folder_vs_project_flags.{name}"] = times["project"] / times[name]
+    return values
 
 
 def _program(out: Path, tools, folder: Path, units: list[str]) -> Path:

@@ -15,7 +15,7 @@ _REPEATS = 3
 
 
 def _measure(quick: bool) -> Mapping[str, float]:
-    found: dict[str, float] = {}
+    table: dict[str, float] = {}
     for name in ROBOTS:
         model, samples = compiled(name), _FEW if quick else SAMPLES
         q, qd, qdd = states(name, samples)
@@ -28,10 +28,10 @@ def _measure(quick: bool) -> Mapping[str, float]:
         whole = _least(lambda W=W, y=y: np.linalg.lstsq(W, y), 1)
         gram = _least(lambda W=W: W.T @ W, _REPEATS)
         del W
-        found[f"fused_r_seconds.{name}"] = fused
-        found[f"fused_r_vs_lstsq.{name}"] = whole / fused
-        found[f"fused_r_vs_gram.{name}"] = gram / fused
-    return found | {"fused_r_vs_lstsq": found["fused_r_vs_lstsq.puma560"]}
+        table[f"fused_r_seconds.{name}"] = fused
+        table[f"fused_r_vs_lstsq.{name}"] = whole / fused
+        table[f"fused_r_vs_gram.{name}"] = gram / fused
+    return table | {"fused_r_vs_lstsq": table["fused_r_vs_lstsq.puma560"]}
 
 
 def _least(work: Callable[[], object], times: int) -> float:

@@ -108,15 +108,15 @@ MUST = {"orthoglide-2003": (0.85, 1.03), "stewart": (3.75, 4.35), "evra": (4.1, 
 
 
 def _measure(quick: bool) -> Mapping[str, float]:
-    found = {}
+    table = {}
     for name in ROBOTS[-3:] if quick else ROBOTS:
         times = loop_times(name)
-        found |= {f"loops_us.{name}": times["last_us"], f"loops_home_us.{name}": times["home_us"]}
+        table |= {f"loops_us.{name}": times["last_us"], f"loops_home_us.{name}": times["home_us"]}
         if "tile_us" in times:
-            found[f"loops_tile_us.{name}"] = times["tile_us"]
-            found[f"loops_scalar_over_tile.{name}"] = times["tile_ratio"]
-            found[f"loops_bound_ms.{name}"] = times["bound_ms"]
-    return found
+            table[f"loops_tile_us.{name}"] = times["tile_us"]
+            table[f"loops_scalar_over_tile.{name}"] = times["tile_ratio"]
+            table[f"loops_bound_ms.{name}"] = times["bound_ms"]
+    return table
 
 
 def _keys() -> tuple[Key, ...]:

@@ -36,15 +36,15 @@ def number(value: float) -> str:
 
 def _families(keys: Iterable[Key]) -> list[_Family]:
     """In the order of their first keys."""
-    found: dict[tuple[str, str], dict[str, Key]] = {}
+    table: dict[tuple[str, str], dict[str, Key]] = {}
     for key in keys:
         name, _, variant = key.name.rpartition(".")
         named = rf"(?<![A-Za-z0-9]){re.escape(variant)}(?![A-Za-z0-9])"
         meaning = re.sub(named, "X", key.meaning) if name else key.meaning
-        found.setdefault((name, meaning), {})[variant] = key
+        table.setdefault((name, meaning), {})[variant] = key
     return [
         _Family(name, meaning, of) if len(of) > 1 else _alone(*of.values())
-        for (name, meaning), of in found.items()
+        for (name, meaning), of in table.items()
     ]
 
 
@@ -84,5 +84,5 @@ def _cell(report: Mapping[str, Any], key: Key) -> str:
     if value is None:
         return f"missing: {report['missing'].get(key.name, 'not measured')}"
     goals = ("-" if goal is None else f"{goal:g}" for goal in (key.must, key.aim))
-    told = "/".join(goals)
-    return number(value) if told == "-/-" else f"{number(value)} ({told})"
+    text = "/".join(goals)
+    return number(value) if text == "-/-" else f"{number(value)} ({text})"

@@ -39,7 +39,7 @@ def paired(ways: Mapping[str, Callable[[], object]], rounds: int) -> dict[str, l
 
 
 def _measure(quick: bool) -> Mapping[str, float]:
-    found = {}
+    table = {}
     fill = _fill()
     for name in ROBOTS:
         model, samples = compiled(name), _FEW_SAMPLES if quick else SAMPLES
@@ -54,10 +54,10 @@ def _measure(quick: bool) -> Mapping[str, float]:
             _FEW if quick else _ROUNDS,
         )
         each = [w / f for w, f in zip(times["W"], times["fill"], strict=True)]
-        found[f"dense_w_vs_stream_fill.{name}"] = median(each)
-        found[f"dense_w_seconds.{name}"] = min(times["W"])
+        table[f"dense_w_vs_stream_fill.{name}"] = median(each)
+        table[f"dense_w_seconds.{name}"] = min(times["W"])
         del W
-    return found
+    return table
 
 
 def _fill() -> Callable[[ctypes.c_void_p, int, float], None]:

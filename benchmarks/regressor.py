@@ -21,21 +21,21 @@ _WAYS = ("scalar", "nonzeros", "tile")
 
 
 def _measure(quick: bool) -> Mapping[str, float | Missing]:
-    found: dict[str, float | Missing] = {}
+    table: dict[str, float | Missing] = {}
     for name in ROBOTS:
         times, missing = nanoseconds(name, _FEW if quick else _ROUNDS)
         for kind, why in missing.items():
             keys = (f"{way}_vs_pinocchio_{kind}.{name}" for way in ("scalar", "nonzeros", "batch"))
-            found |= dict.fromkeys((*keys, f"pinocchio_ns.{kind}.{name}"), why)
+            table |= dict.fromkeys((*keys, f"pinocchio_ns.{kind}.{name}"), why)
         ways = {"scalar": "scalar", "nonzeros": "nonzeros", "batch": "tile"}
-        ways = {way: times[own] for way, own in ways.items() if times[own]}
-        found |= {f"regressor_ns.{way}.{name}": own for way, own in ways.items()}
+        ways = {way: times[item] for way, item in ways.items() if times[item]}
+        table |= {f"regressor_ns.{way}.{name}": entry for way, entry in ways.items()}
         for kind in pinocchio.COMPILERS:
-            if (own := times.get(kind)) is None:
+            if (local := times.get(kind)) is None:
                 continue
-            found[f"pinocchio_ns.{kind}.{name}"] = own
-            found |= {f"{way}_vs_pinocchio_{kind}.{name}": own / ns for way, ns in ways.items()}
-    return found
+            table[f"pinocchio_ns.{kind}.{name}"] = local
+            table |= {f"{way}_vs_pinocchio_{kind}.{name}": local / ns for way, ns in ways.items()}
+    return table
 
 
 def nanoseconds(name: str, rounds: int) -> tuple[dict[str, float], dict[str, Missing]]:

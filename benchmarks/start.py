@@ -22,11 +22,11 @@ _TIMES, _FEW = 7, 2
 def _help(quick: bool) -> Mapping[str, float]:
     times = _FEW if quick else _TIMES
     python = least([sys.executable, "-c", "pass"], times, cost).wall
-    told = least(["--help"], times).wall
+    text = least(["--help"], times).wall
     return {
         "python_seconds": python,
-        "help_seconds": told,
-        "help_vs_python": told / python,
+        "help_seconds": text,
+        "help_vs_python": text / python,
         "version_seconds": least(["--version"], times).wall,
     }
 
@@ -34,13 +34,13 @@ def _help(quick: bool) -> Mapping[str, float]:
 def _derive(quick: bool) -> Mapping[str, float]:
     times = _FEW if quick else _TIMES
     python = least([sys.executable, "-c", "pass"], times, cost).wall
-    found = {"libraries_seconds": least([sys.executable, "-c", _LIBRARIES], times, cost).wall}
+    table = {"libraries_seconds": least([sys.executable, "-c", _LIBRARIES], times, cost).wall}
     for name in DERIVED:
         used = least(["derive", name], times)
-        found[f"derive_seconds.{name}"] = used.wall
-        found[f"derive_cpu_seconds.{name}"] = used.cpu
-        found[f"derive_vs_python.{name}"] = used.wall / python
-    return found
+        table[f"derive_seconds.{name}"] = used.wall
+        table[f"derive_cpu_seconds.{name}"] = used.cpu
+        table[f"derive_vs_python.{name}"] = used.wall / python
+    return table
 
 
 def _derive_keys() -> list[Key]:

@@ -55,7 +55,7 @@ def _pieces(model, names: list[str], samples: int) -> Iterator[pa.Table]:
 
 
 def _measure(quick: bool) -> Mapping[str, float]:
-    found = {}
+    table = {}
     modeler(["derive", ROBOT])  # the compiled model is in the cache from here on
     with tempfile.TemporaryDirectory() as scratch:
         log, model = Path(scratch) / "log.parquet", str(Path(scratch) / "model.json")
@@ -65,14 +65,14 @@ def _measure(quick: bool) -> Mapping[str, float]:
             if name == "1e6":
                 modeler(words)
             used = modeler(words)
-            found[f"fit_seconds.{name}"] = used.wall
-            found[f"fit_cpu_seconds.{name}"] = used.cpu
-            found[f"fit_peak_mb.{name}"] = used.peak
+            table[f"fit_seconds.{name}"] = used.wall
+            table[f"fit_cpu_seconds.{name}"] = used.cpu
+            table[f"fit_peak_mb.{name}"] = used.peak
             if name == "1e7":
                 used = modeler(["diagnose", model, str(log)])
-                found |= {"diagnose_seconds.1e7": used.wall, "diagnose_peak_mb.1e7": used.peak}
+                table |= {"diagnose_seconds.1e7": used.wall, "diagnose_peak_mb.1e7": used.peak}
             log.unlink()
-    return found | {"fit_seconds_per_1e6": found["fit_seconds.1e6"]}
+    return table | {"fit_seconds_per_1e6": table["fit_seconds.1e6"]}
 
 
 def _keys() -> tuple[Key, ...]:

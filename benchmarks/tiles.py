@@ -19,7 +19,7 @@ _REPEATS = 5
 
 
 def _single(quick: bool) -> Mapping[str, float]:
-    found, rounds = {}, "40" if quick else "300"
+    values, rounds = {}, "40" if quick else "300"
     for name in ROBOTS:
         derivation = derive(lossy(name))
         with tempfile.TemporaryDirectory() as scratch:
@@ -29,9 +29,9 @@ def _single(quick: bool) -> Mapping[str, float]:
                 for precision, program in programs.items():
                     said = subprocess.run([program, rounds], capture_output=True, check=True)
                     least[precision] = min(least[precision], float(said.stdout))
-        found[f"single_tile_ns.{name}"] = least["single"]
-        found[f"single_tiles_vs_double.{name}"] = least["double"] / least["single"]
-    return found
+        values[f"single_tile_ns.{name}"] = least["single"]
+        values[f"single_tiles_vs_double.{name}"] = least["double"] / least["single"]
+    return values
 
 
 def _program(derivation, precision, scratch: Path) -> Path:
@@ -65,7 +65,7 @@ def _program(derivation, precision, scratch: Path) -> Path:
 
 
 def _columns(quick: bool) -> Mapping[str, float]:
-    found, rng = {}, np.random.default_rng(5)
+    values, rng = {}, np.random.default_rng(5)
     for name in ROBOTS:
         model = compiled(name)
         motion = list(rng.uniform(-2, 2, (3, SAMPLES, len(model.spec.joints))))
@@ -78,8 +78,8 @@ def _columns(quick: bool) -> Mapping[str, float]:
                 model._tiles.fill_samples(motion, W, dense=True)
                 times.append(time.perf_counter() - start)
             ratios.append(times[1] / times[0])
-        found[f"columns_over_rows.{name}"] = float(np.median(ratios))
-    return found
+        values[f"columns_over_rows.{name}"] = float(np.median(ratios))
+    return values
 
 
 LINES = (

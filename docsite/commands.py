@@ -10,7 +10,7 @@ from modeler.core.choices import ABOUT
 def command_pages() -> dict[str, str]:
     """{"commands/derive.md": text} of every command, and an index of them."""
     parsers = commands()
-    pages = {f"commands/{name}.md": _page(name, found) for name, found in parsers.items()}
+    pages = {f"commands/{name}.md": _page(name, item) for name, item in parsers.items()}
     return {"commands/index.md": _index(parsers), **pages}
 
 
@@ -19,8 +19,8 @@ def commands() -> dict[str, argparse.ArgumentParser]:
     return collect_command_parsers(build_parser())
 
 
-def _subparsers(found: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
-    for action in found._actions:
+def _subparsers(parser: argparse.ArgumentParser) -> dict[str, argparse.ArgumentParser]:
+    for action in parser._actions:
         if isinstance(action, argparse._SubParsersAction):
             return dict(action.choices)
     return {}
@@ -33,53 +33,53 @@ def _summaries() -> dict[str, str]:
 
 
 def _index(parsers: dict[str, argparse.ArgumentParser]) -> str:
-    told = _summaries()
+    text = _summaries()
     parts = [f"# Commands\n\n{cell(build_parser().description or '')}\n"]
     for family, members in read_families().items():
         rows = [
-            (f"[`modeler {name}`]({name}.md)", cell(told[name]), code(_example(parsers[name])))
+            (f"[`modeler {name}`]({name}.md)", cell(text[name]), code(_example(parsers[name])))
             for name in members
         ]
         parts += [f"## {family.capitalize()}\n", table(("command", "does", "example"), rows)]
     return "\n".join(parts)
 
 
-def _page(name: str, found: argparse.ArgumentParser) -> str:
-    parts = [f"# modeler {name}", "", cell(found.description or ""), ""]
-    if example := _example(found):
+def _page(name: str, parser: argparse.ArgumentParser) -> str:
+    parts = [f"# modeler {name}", "", cell(parser.description or ""), ""]
+    if example := _example(parser):
         parts += ["Example:", "", block(example, "sh")]
-    parts += _arguments(found)
-    for inner, child in _subparsers(found).items():
+    parts += _arguments(parser)
+    for inner, child in _subparsers(parser).items():
         parts += [f"## modeler {name} {inner}", "", cell(child.description or ""), ""]
         parts += [block(_example(child), "sh"), *_arguments(child)]
     if name == "estimators":
         parts += ["## All of them", "", estimators()]
-    return "\n".join([*parts, "## As the command prints it", "", block(_help(found), "text")])
+    return "\n".join([*parts, "## As the command prints it", "", block(_help(parser), "text")])
 
 
 def estimators() -> str:
     """What the command shows, as a table."""
     head = ("method", "is", "law", "source", "do not use it", "assumes")
-    told = [(a.title, a.law, a.source, a.limitations, a.motion) for a in ABOUT.values()]
-    named = zip(ABOUT, told, strict=True)
+    lines = [(a.title, a.law, a.source, a.limitations, a.motion) for a in ABOUT.values()]
+    named = zip(ABOUT, lines, strict=True)
     return table(head, [(code(id), *map(cell, words)) for id, words in named])
 
 
-def _help(found: argparse.ArgumentParser) -> str:
+def _help(parser: argparse.ArgumentParser) -> str:
     """The help at 96 letters a line, wherever the site is built."""
-    found.formatter_class = lambda prog: argparse.HelpFormatter(prog, width=96)
-    return found.format_help()
+    parser.formatter_class = lambda prog: argparse.HelpFormatter(prog, width=96)
+    return parser.format_help()
 
 
-def _example(found: argparse.ArgumentParser) -> str:
-    return (found.epilog or "").removeprefix("example:").removeprefix("examples:").strip()
+def _example(parser: argparse.ArgumentParser) -> str:
+    return (parser.epilog or "").removeprefix("example:").removeprefix("examples:").strip()
 
 
-def _arguments(found: argparse.ArgumentParser) -> list[str]:
+def _arguments(parser: argparse.ArgumentParser) -> list[str]:
     """A table of each group of arguments."""
     parts = []
-    for group in found._action_groups:
-        rows = [_row(found, action) for action in group._group_actions if _told(action)]
+    for group in parser._action_groups:
+        rows = [_row(parser, action) for action in group._group_actions if _told(action)]
         if rows:
             title = (group.title or "arguments").capitalize()
             parts += [f"## {title}", "", table(("argument", "meaning"), rows)]
@@ -90,11 +90,11 @@ def _told(action: argparse.Action) -> bool:
     return action.help != argparse.SUPPRESS and not isinstance(action, argparse._SubParsersAction)
 
 
-def _row(found: argparse.ArgumentParser, action: argparse.Action) -> tuple[str, str]:
+def _row(parser: argparse.ArgumentParser, action: argparse.Action) -> tuple[str, str]:
     names = action.option_strings or [_value(action)]
     value = _value(action) if action.option_strings and action.nargs != 0 else ""
-    told = found._get_formatter()._expand_help(action) if action.help else ""
-    return ", ".join(code(f"{name} {value}".strip()) for name in names), cell(told)
+    text = parser._get_formatter()._expand_help(action) if action.help else ""
+    return ", ".join(code(f"{name} {value}".strip()) for name in names), cell(text)
 
 
 def _value(action: argparse.Action) -> str:

@@ -116,19 +116,19 @@ def portraits() -> list[Portrait]:
     """
     drawn = [effect.id for place, effect in enumerate(CATALOGUE) if has_its_turn(place)]
     with ProcessPoolExecutor() as pool:
-        found = dict(zip(drawn, pool.map(portrait, drawn), strict=True))
-    return [found.get(e.id) or _without_picture(e, "No picture was made today.") for e in CATALOGUE]
+        table = dict(zip(drawn, pool.map(portrait, drawn), strict=True))
+    return [table.get(e.id) or _without_picture(e, "No picture was made today.") for e in CATALOGUE]
 
 
 def portrait(name: str) -> Portrait:
     """All that the gallery says of an effect; takes two seconds."""
     effect = next(effect for effect in CATALOGUE if effect.id == name)
     if name not in HIDDEN:
-        told = "Nothing simulates this effect, so there is no picture of its residual."
-        return _without_picture(effect, told)
+        text = "Nothing simulates this effect, so there is no picture of its residual."
+        return _without_picture(effect, text)
     scene = SCENES.get(name, Scene())
     shown = _shown(effect, scene)
-    picture = _picture(effect, shown.found)
+    picture = _picture(effect, shown.diagnosis)
     parts = [
         _scene_words(shown, scene),
         "",
@@ -139,13 +139,13 @@ def portrait(name: str) -> Portrait:
         "",
         "What the diagnosis says of it:",
         "",
-        block("\n".join(_told(shown.found)), "text"),
+        block("\n".join(_list_findings(shown.diagnosis)), "text"),
         "The same by hand; the picture is "
         f"{code(f'pictures/{picture.name}.png')}, with its numbers as CSV beside it:",
         "",
         block("\n".join(scene.commands(name)), "sh"),
     ]
-    page = _page(effect, "\n".join(parts), _apart(effect, shown), _shapes(effect, shown.found))
+    page = _page(effect, "\n".join(parts), _apart(effect, shown), _shapes(effect, shown.diagnosis))
     return Portrait(effect, page, _png(picture), _png(_small(picture), (4.0, 2.7)))
 
 
@@ -153,7 +153,7 @@ def _without_picture(effect: Effect, told: str) -> Portrait:
     return Portrait(effect, _page(effect, told, "", {}), None, None)
 
 
-def effects_index(found: Sequence[Portrait]) -> str:
+def effects_index(portraits: Sequence[Portrait]) -> str:
     """The page that shows all effects, family by family."""
     parts = [
         "# Effects\n\nWhat a model may lack, and what that leaves behind. Each picture is of a "
@@ -170,7 +170,7 @@ def effects_index(found: Sequence[Portrait]) -> str:
                 f"[{cell(item.effect.id)}]({item.effect.id}.md): {cell(item.effect.title)}<br>"
                 f"{cell(item.effect.signature)}",
             )
-            for item in found
+            for item in portraits
             if item.effect.family == family
         ]
         parts += [f"## {title}\n", table(("picture", "effect, and how it shows"), rows)]
@@ -183,7 +183,7 @@ class _Shown:
 
     model: api.Model
     hidden: str
-    found: Diagnosis
+    diagnosis: Diagnosis
 
 
 def _shown(effect: Effect, scene: Scene) -> _Shown:
@@ -207,15 +207,15 @@ def _machine(name: str, effects: str | None) -> tuple[Robot, api.Derivation, api
     return robot, derivation, api.generate(derivation)
 
 
-def _picture(effect: Effect, found: Diagnosis) -> Picture:
+def _picture(effect: Effect, diagnosis: Diagnosis) -> Picture:
     """Of the effect, or of that which the diagnosis finds in its place."""
     drawn = [
         p
-        for p in build_diagnosis_page(found).collect_pictures()
+        for p in build_diagnosis_page(diagnosis).collect_pictures()
         if not p.name.startswith("torque_")
     ]
-    own = [p for p in drawn if p.name.startswith(f"evidence_{effect.id}")]
-    return (own or drawn)[0]
+    items = [p for p in drawn if p.name.startswith(f"evidence_{effect.id}")]
+    return (items or drawn)[0]
 
 
 def _small(picture: Picture) -> Picture:
@@ -280,7 +280,7 @@ def _parameters(effect: Effect) -> list[str]:
             columns.append((code(c.prefix), code(c.equation.text), " or ".join(units), sign))
         shapes |= {shape.name: shape for shape in form.free_parameters}
     head = ("parameter", "equation, times it", "unit: joint turns, slides", "sign")
-    found = [f"{acts[:-1]}:", "", table(head, columns)]
+    values = [f"{acts[:-1]}:", "", table(head, columns)]
     if shapes:
         rows = [
             (
@@ -290,8 +290,8 @@ def _parameters(effect: Effect) -> list[str]:
             )
             for s in shapes.values()
         ]
-        found += ["", table(("shape", "what it is", "unit"), rows)]
-    return found
+        values += ["", table(("shape", "what it is", "unit"), rows)]
+    return values
 
 
 def _scene_words(shown: _Shown, scene: Scene) -> str:
@@ -299,34 +299,34 @@ def _scene_words(shown: _Shown, scene: Scene) -> str:
     return f"The machine: `{scene.robot}` with {cell(shown.hidden)}. Its model is {fitted}."
 
 
-def _told(found: Diagnosis) -> list[str]:
+def _list_findings(diagnosis: Diagnosis) -> list[str]:
     """The verdict and what is said of each effect that is named, at 88 letters a line."""
-    said = format_lines(found)
-    named = {finding.joint for finding in found.effects}
+    said = format_lines(diagnosis)
+    named = {finding.joint for finding in diagnosis.effects}
     of_effects = tuple(f"joint {joint}: " if joint else "the whole robot: " for joint in named)
-    told = [said[0], *(line for line in said[1:] if line.startswith(of_effects or ("?",)))]
-    return [textwrap.fill(line, 88, subsequent_indent="  ") for line in told]
+    lines = [said[0], *(line for line in said[1:] if line.startswith(of_effects or ("?",)))]
+    return [textwrap.fill(line, 88, subsequent_indent="  ") for line in lines]
 
 
 def _apart(effect: Effect, shown: _Shown) -> str:
     """Ties and alternatives in these logs, and the motion that distinguishes the strongest."""
-    finding = next((f for f in shown.found.effects if f.effect == effect.id), None)
+    finding = next((f for f in shown.diagnosis.effects if f.effect == effect.id), None)
     if finding is None:
         return ""
     ties = [_place(name, joint) for name, joint in finding.equivalents]
-    rivals = [
+    others = [
         (_place(name, joint), f"{100 * max(gain, 0.0):.3g} %")
-        for name, joint, gain in shown.found.alternatives
+        for name, joint, gain in shown.diagnosis.alternatives
         if joint == finding.joint and name != effect.id
     ][:5]
     parts = []
     if ties:
         parts += [f"Not distinguished by this log: {', '.join(ties)}.", ""]
-    if rivals and shown.found.effects[0] is finding:
+    if others and shown.diagnosis.effects[0] is finding:
         parts += [
             "What others would explain of the variance that it explains here:",
             "",
-            table(("rival", "explains"), rivals),
+            table(("rival", "explains"), others),
         ]
     if between := _between(finding, shown):
         parts += [
@@ -343,8 +343,11 @@ def _between(finding: Finding, shown: _Shown) -> str:
     from modeler.api.motion import build_subject, parse_question
 
     subject = build_subject(shown.model)
-    rivals = [*finding.equivalents, *((name, joint) for name, joint, _ in shown.found.alternatives)]
-    for name, joint in rivals:
+    others = [
+        *finding.equivalents,
+        *((name, joint) for name, joint, _ in shown.diagnosis.alternatives),
+    ]
+    for name, joint in others:
         if name == finding.effect or joint != finding.joint or joint is None:
             continue
         text = f"{finding.effect}@{finding.joint},{name}@{joint}"
@@ -360,10 +363,10 @@ def _place(name: str, joint: str | None) -> str:
     return f"[{cell(name)}]({name}.md)" + (f" on joint {joint}" if joint else "")
 
 
-def _shapes(effect: Effect, found: Diagnosis) -> Mapping[str, float]:
+def _shapes(effect: Effect, diagnosis: Diagnosis) -> Mapping[str, float]:
     """What the diagnosis finds of the shapes that a robot file states, three digits."""
     free = {shape.name for form in effect.forms for shape in form.free_parameters}
-    picks = (f.pick for f in found.effects if f.effect == effect.id and f.pick is not None)
+    picks = (f.pick for f in diagnosis.effects if f.effect == effect.id and f.pick is not None)
     shapes = next((pick.candidate.nonlinear_parameters for pick in picks), {})
     return {name: float(f"{value:.3g}") for name, value in shapes.items() if name in free}
 

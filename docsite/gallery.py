@@ -76,22 +76,22 @@ def coefficients(derivation: Derivation) -> list[str]:
     """The section of a robot whose paper numbers the coefficients of its closed form."""
     if not derivation.robot.terms:
         return []
-    found = formulas.build_coefficient_table(derivation.model, derivation.base)
-    return ["## Coefficients", "", formulas.coefficients.format_coefficients(found, "markdown"), ""]
+    table = formulas.build_coefficient_table(derivation.model, derivation.base)
+    return ["## Coefficients", "", formulas.coefficients.format_coefficients(table, "markdown"), ""]
 
 
 def gallery_index(exhibits: Sequence[Exhibit]) -> str:
     """The page that shows all robots."""
     rows = [
         (
-            f"[![{found.name}]({found.name}.png){{ width=120 }}]({found.name}.md)",
-            f"[{found.name}]({found.name}.md)",
-            cell(found.title),
-            str(found.joints),
-            str(found.base),
-            str(found.lines),
+            f"[![{item.name}]({item.name}.png){{ width=120 }}]({item.name}.md)",
+            f"[{item.name}]({item.name}.md)",
+            cell(item.title),
+            str(item.joints),
+            str(item.base),
+            str(item.lines),
         )
-        for found in exhibits
+        for item in exhibits
     ]
     head = ("picture", "name", "robot", "coordinates", "base parameters", "lines of C")
     return (
@@ -103,7 +103,7 @@ def gallery_index(exhibits: Sequence[Exhibit]) -> str:
 
 def gallery_front(robots: Sequence[Exhibit], effects: Sequence[Portrait]) -> str:
     """The page before the galleries: robots, effects and studies, as pictures to click."""
-    arms = [(found.name, f"robots/{found.name}.png", f"robots/{found.name}.md") for found in robots]
+    arms = [(entry.name, f"robots/{entry.name}.png", f"robots/{entry.name}.md") for entry in robots]
     seen = [
         (item.effect.id, f"effects/{item.effect.id}-small.png", f"effects/{item.effect.id}.md")
         for item in effects
@@ -161,9 +161,9 @@ def _counts(derivation: Derivation) -> str:
 
 def _mdh(text: str) -> str:
     """The table as its file writes it, in the notation of Khalil and Kleinfinger."""
-    found = tomllib.loads(text)["mdh"]
-    rows = [[code(str(entry)) for entry in row] for row in found["rows"]]
-    return table(found["columns"], rows)
+    result = tomllib.loads(text)["mdh"]
+    rows = [[code(str(entry)) for entry in row] for row in result["rows"]]
+    return table(result["columns"], rows)
 
 
 def _emitted(

@@ -88,9 +88,9 @@ def gallery_pages() -> dict[str, str | bytes]:
         "gallery/robots/index.md": gallery_index(robots),
         "gallery/effects/index.md": effects_index(effects),
     }
-    for found in robots:
-        pages[f"gallery/robots/{found.name}.md"] = found.page
-        pages[f"gallery/robots/{found.name}.png"] = found.picture
+    for item in robots:
+        pages[f"gallery/robots/{item.name}.md"] = item.page
+        pages[f"gallery/robots/{item.name}.png"] = item.picture
     for shown in effects:
         pages[f"gallery/effects/{shown.effect.id}.md"] = shown.page
         if shown.picture is not None and shown.thumbnail is not None:
@@ -101,8 +101,8 @@ def gallery_pages() -> dict[str, str | bytes]:
 
 def notebooks() -> dict[str, Path]:
     """{page: file} of the notebooks of docs/."""
-    found = sorted((ROOT / "docs").rglob("*.ipynb"))
-    return {path.relative_to(ROOT / "docs").with_suffix(".md").as_posix(): path for path in found}
+    names = sorted((ROOT / "docs").rglob("*.ipynb"))
+    return {path.relative_to(ROOT / "docs").with_suffix(".md").as_posix(): path for path in names}
 
 
 def notebook_pages() -> dict[str, str]:

@@ -38,9 +38,9 @@ def exported(module_name: str) -> list[tuple[str, str]]:
     module = importlib.import_module(module_name)
     offered = {name: getattr(module, name) for name in getattr(module, "__all__", ())}
     return [
-        (name, f"{found.__module__}.{found.__qualname__}")
-        for name, found in offered.items()
-        if inspect.isfunction(found) or inspect.isclass(found)
+        (name, f"{item.__module__}.{item.__qualname__}")
+        for name, item in offered.items()
+        if inspect.isfunction(item) or inspect.isclass(item)
     ]
 
 

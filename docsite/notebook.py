@@ -44,8 +44,8 @@ def last_run(path: Path) -> str:
 
 
 def _place(path: Path) -> Path:
-    own = hashlib.sha256(path.read_bytes() + program_text()).hexdigest()[:16]
-    return KEPT / f"{path.stem}-{own}.ipynb"
+    actual = hashlib.sha256(path.read_bytes() + program_text()).hexdigest()[:16]
+    return KEPT / f"{path.stem}-{actual}.ipynb"
 
 
 @cache
@@ -53,8 +53,8 @@ def program_text() -> bytes:
     """All that can change what a notebook shows, but for other packages."""
     folders = ("modeler", "templates", "csrc")
     paths = sorted(path for name in folders for path in (ROOT / name).rglob("*.*"))
-    kept = (path for path in paths if path.is_file() and "__pycache__" not in path.parts)
-    return b"".join(path.read_bytes() for path in kept)
+    rest = (path for path in paths if path.is_file() and "__pycache__" not in path.parts)
+    return b"".join(path.read_bytes() for path in rest)
 
 
 def _run(path: Path) -> str:
@@ -63,8 +63,8 @@ def _run(path: Path) -> str:
 
     notebook = nbformat.read(path, as_version=4)
     nbformat.validate(notebook)
-    given = os.environ.get("PYTHONPATH", "")
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), given]))}
+    inputs = os.environ.get("PYTHONPATH", "")
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), inputs]))}
     with tempfile.TemporaryDirectory() as folder:
         client = NotebookClient(notebook, resources={"metadata": {"path": folder}}, timeout=240)
         client.execute(env=environment, stderr=subprocess.DEVNULL)  # it speaks of sockets
@@ -73,24 +73,24 @@ def _run(path: Path) -> str:
 
 def notebook_page(text: str) -> str:
     """The cells of a notebook (format 4) one after the other."""
-    return "\n".join(_cell(found) for found in json.loads(text)["cells"])
+    return "\n".join(_cell(item) for item in json.loads(text)["cells"])
 
 
-def _cell(found: dict[str, Any]) -> str:
-    source = _joined(found["source"])
-    if found["cell_type"] == "markdown":
+def _cell(cell: dict[str, Any]) -> str:
+    source = _joined(cell["source"])
+    if cell["cell_type"] == "markdown":
         return source + "\n"
-    if found["cell_type"] != "code":
+    if cell["cell_type"] != "code":
         return ""
-    shown = [_output(output) for output in found.get("outputs", [])]
+    shown = [_output(output) for output in cell.get("outputs", [])]
     return "\n".join([block(source, "python"), *shown])
 
 
-def _output(found: dict[str, Any]) -> str:
+def _output(cell: dict[str, Any]) -> str:
     """The richest form that a page can hold."""
-    if found["output_type"] == "stream":
-        return block(_joined(found["text"]), "text")
-    data = found.get("data", {})
+    if cell["output_type"] == "stream":
+        return block(_joined(cell["text"]), "text")
+    data = cell.get("data", {})
     if "image/png" in data:
         return (
             f'<img alt="figure" src="data:image/png;base64,{"".join(data["image/png"].split())}">\n'

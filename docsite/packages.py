@@ -11,16 +11,16 @@ FILL = {"derives": "#fde8c8", "numbers": "#d3e6f8", "around": "#e6e6e6"}
 
 def package_imports(package: Path) -> dict[str, set[str]]:
     """{package: the packages that it imports}, but for the way round of an added effect."""
-    found: dict[str, set[str]] = {path.parent.name: set() for path in package.glob("*/__init__.py")}
-    for room, others in found.items():
+    table: dict[str, set[str]] = {path.parent.name: set() for path in package.glob("*/__init__.py")}
+    for room, others in table.items():
         for path in (package / room).rglob("*.py"):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("modeler."):
                     others.add(str(node.module).split(".")[1])
     back = {"robot", "codegen"}  # diagnosis writes the effect into the robot file: the round
     return {
-        room: (others & found.keys()) - {room} - (back if room == "diagnosis" else set())
-        for room, others in found.items()
+        room: (others & table.keys()) - {room} - (back if room == "diagnosis" else set())
+        for room, others in table.items()
     }
 
 

@@ -144,17 +144,17 @@ def compare_with_generated(regenerate: bool) -> Callable[[str, Mapping[str, str]
         folder = ROOT / "generated" / name
         wanted = emitted if name in IN_FULL else {"SHA256SUMS": list_digests(emitted)}
         files = [path for path in folder.rglob("*") if path.is_file()]
-        kept = {path.relative_to(folder).as_posix(): path for path in files}
+        rest = {path.relative_to(folder).as_posix(): path for path in files}
         if regenerate:
-            for stale in kept.keys() - wanted.keys():
-                kept[stale].unlink()
+            for stale in rest.keys() - wanted.keys():
+                rest[stale].unlink()
             for file, text in wanted.items():
                 (folder / file).parent.mkdir(parents=True, exist_ok=True)
                 (folder / file).write_bytes(text.encode())
             return
-        assert sorted(kept) == sorted(wanted)
+        assert sorted(rest) == sorted(wanted)
         for file, text in wanted.items():
-            before = kept[file].read_bytes().decode().splitlines(True)
+            before = rest[file].read_bytes().decode().splitlines(True)
             now = (f"generated/{name}/{file}", "emitted now")
             difference = "".join(difflib.unified_diff(before, text.splitlines(True), *now, n=0))
             assert not difference, (

@@ -84,9 +84,9 @@ def test_no_name_that_was_promised_is_gone(regenerate: bool) -> None:
 
 def test_the_page_tells_the_numbers_of_this_version() -> None:
     text = (ROOT / "docs" / "reference" / "versions.md").read_text(encoding="utf-8")
-    for told, number in (
+    for message, number in (
         ("C interface", C_INTERFACE),
         ("model format", MODEL_FORMAT),
         ("manifest format", MANIFEST_FORMAT),
     ):
-        assert f"{told} {number}" in text, told
+        assert f"{message} {number}" in text, message

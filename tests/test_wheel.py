@@ -100,8 +100,8 @@ def _runner(programs: Path, folder: Path) -> Run:
     }
 
     def run(name: str, *words: str) -> str:
-        own = programs / name
-        command = [str(own) if own.exists() else name, *words]
+        item = programs / name
+        command = [str(item) if item.exists() else name, *words]
         result = subprocess.run(
             command, cwd=folder, env=environment, capture_output=True, text=True, check=False
         )
@@ -154,8 +154,8 @@ def test_the_sdist_installs_what_the_wheel_does(installed: Path, from_sdist: Pat
         for folder in programs.parent.glob("lib/python*/site-packages/modeler")
     )
     assert len(of_wheel) > 100 and of_sdist == of_wheel
-    told = _runner(from_sdist, from_sdist)("modeler", "--version")
-    assert re.fullmatch(r"modeler \d+\.\d+\.\d+\S*\n", told)
+    out = _runner(from_sdist, from_sdist)("modeler", "--version")
+    assert re.fullmatch(r"modeler \d+\.\d+\.\d+\S*\n", out)
 
 
 @slow_rotating("the wheel used")
@@ -179,8 +179,8 @@ def test_what_a_stranger_does_first(installed: Path, tmp_path: Path) -> None:
 @slow_rotating("the wheel used")
 def test_the_demonstration_from_the_wheel(installed: Path, tmp_path: Path) -> None:
     """Short: on the arm the hidden effect is found all the same."""
-    told = _runner(installed, tmp_path)("modeler", "demo", "--duration", "5", "--out", "demo")
-    assert "the truth: load_friction on joint 2" in told
+    out = _runner(installed, tmp_path)("modeler", "demo", "--duration", "5", "--out", "demo")
+    assert "the truth: load_friction on joint 2" in out
     arm = json.loads((tmp_path / "demo" / "demo-arm" / "improved.json").read_text("utf-8"))
     assert "load_friction" in json.dumps(arm)
     assert len([*tmp_path.glob("demo/*/improved.html")]) >= 1

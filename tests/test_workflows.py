@@ -39,10 +39,10 @@ def test_there_are_wheels_tests_and_docs() -> None:
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_a_workflow_is_pinned_and_may_only_read(path: Path) -> None:
-    found = yaml.safe_load(path.read_text(encoding="utf-8"))
-    assert found["permissions"] == {"contents": "read"}
-    assert {"name", True, "jobs"} <= found.keys()  # YAML 1.1 reads `on` as true
-    for job in found["jobs"].values():
+    result = yaml.safe_load(path.read_text(encoding="utf-8"))
+    assert result["permissions"] == {"contents": "read"}
+    assert {"name", True, "jobs"} <= result.keys()  # YAML 1.1 reads `on` as true
+    for job in result["jobs"].values():
         systems = job.get("strategy", {}).get("matrix", {}).get("system", [job["runs-on"]])
         assert not any("latest" in system for system in systems) and job["timeout-minutes"]
     for step in steps(path):

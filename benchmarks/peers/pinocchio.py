@@ -64,7 +64,7 @@ def library(kind: str) -> Path:
 
 def _headers() -> list[Path]:
     """Of Pinocchio, and of Eigen, which CasADi's wheel carries."""
-    found = []
+    values = []
     for package, inside, probe in (
         ("cmeel", "../cmeel.prefix/include", "pinocchio/algorithm/regressor.hpp"),
         ("casadi", "include/eigen3", "Eigen/Core"),
@@ -75,8 +75,8 @@ def _headers() -> list[Path]:
         folder = (Path(spec.origin).parent / inside).resolve()
         if not (folder / probe).exists():
             raise Missing(f"{folder / probe} is missing: another version of its package?")
-        found.append(folder)
-    return found
+        values.append(folder)
+    return values
 
 
 def write_model(robot: Robot, place: Path, bodies: Mapping[str, Sequence[float]] = {}) -> None:
@@ -152,6 +152,6 @@ def check(kind: str, name: str, model: Path) -> None:
     for link in range(n):
         block = theirs[:, 10 * link : 10 * link + 10][:, _ORDER]
         letters = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
-        own = ours[:, [names.index(f"{letter}{link + 1}") for letter in letters]]
-        if np.abs(block - own).max() > _AGREES * np.abs(ours).max():
+        actual = ours[:, [names.index(f"{letter}{link + 1}") for letter in letters]]
+        if np.abs(block - actual).max() > _AGREES * np.abs(ours).max():
             raise Missing(f"Pinocchio and modeler disagree on link {link + 1} of {name}")

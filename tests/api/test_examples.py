@@ -51,8 +51,8 @@ def names(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 
 def examples(module: str, names: dict[str, Any] | None = None) -> list[doctest.DocTest]:
-    found = doctest.DocTestFinder().find(importlib.import_module(module), extraglobs=names)
-    return [example for example in found if example.examples]
+    result = doctest.DocTestFinder().find(importlib.import_module(module), extraglobs=names)
+    return [example for example in result if example.examples]
 
 
 def test_every_function_has_an_example() -> None:

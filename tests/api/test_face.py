@@ -37,27 +37,27 @@ def test_a_fit_that_is_not_usable_says_so_wherever_it_is_seen(run, model) -> Non
 
 
 def test_every_relative_error_is_a_fraction(run, model) -> None:
-    found = model.compare(run)
-    assert 0.0 < model.error(run) == found.relative_error < 0.01
-    by_joint = {item.joint.name: item.relative_error for item in found.joints}
-    frame = found.to_frame("errors")
+    result = model.compare(run)
+    assert 0.0 < model.error(run) == result.relative_error < 0.01
+    by_joint = {item.joint.name: item.relative_error for item in result.joints}
+    frame = result.to_frame("errors")
     assert dict(zip(frame["joint"], frame["relative error"], strict=True)) == by_joint
     assert frame.attrs["units"]["relative error"] == ""
     fitted = model.to_frame("errors")
     assert list(fitted["relative error"]) == [j.relative_error for j in model.fit.joints]
     assert model.to_dict()["relative_error"] == model.fit.relative_error
-    own = model.to_frame()
-    expected = 100.0 * own["sigma"] / own["value"].abs()
-    assert np.allclose(own["relative_sigma_percent"], expected)
+    local = model.to_frame()
+    expected = 100.0 * local["sigma"] / local["value"].abs()
+    assert np.allclose(local["relative_sigma_percent"], expected)
     names = {"a": model, "b": model}
     errors = modeler.compare_models(names, [run]).to_frame("errors")
     assert np.allclose(errors[["a", "b"]].to_numpy().T, list(by_joint.values()))
 
 
 def test_a_diagnosis_is_a_sequence_of_its_effects() -> None:
-    found = object.__new__(modeler.Diagnosis)
-    object.__setattr__(found, "effects", ("first", "second"))
-    assert len(found) == 2 and found[0] == "first" and [*found] == ["first", "second"]
+    result = object.__new__(modeler.Diagnosis)
+    object.__setattr__(result, "effects", ("first", "second"))
+    assert len(result) == 2 and result[0] == "first" and [*result] == ["first", "second"]
 
 
 def test_no_panel_of_a_comparison_is_empty(run, model) -> None:

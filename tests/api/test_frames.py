@@ -79,18 +79,18 @@ KINDS: dict[str, Callable[[Any], Any]] = {
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_kind_is_the_same_log_and_predicted_in_its_own_kind(kind, model, run, frame):
-    given = KINDS[kind](frame)
+    inputs = KINDS[kind](frame)
     (file,), (log,) = (
-        md.read_logs(compiled("two-link"), convert_to_list(one)) for one in (run, given)
+        md.read_logs(compiled("two-link"), convert_to_list(one)) for one in (run, inputs)
     )
     for name in ("time", "q", "tau"):
         np.testing.assert_array_equal(getattr(log, name), getattr(file, name))
     assert log.content == file.content and log.path == ""
     assert log.name == f"frame {file.content[:6]}"
-    expected, predicted = model.predict(run), model.predict(given)
-    assert type(predicted) is (dict if isinstance(given, dict) else type(given))
+    expected, predicted = model.predict(run), model.predict(inputs)
+    assert type(predicted) is (dict if isinstance(inputs, dict) else type(inputs))
     if kind.startswith("pandas"):
-        assert predicted.index.equals(given.index)
+        assert predicted.index.equals(inputs.index)
     if kind == "dict of arrays":
         assert {*predicted} == {"tau"}
         np.testing.assert_array_equal(predicted["tau"], expected)
@@ -128,16 +128,16 @@ def test_positions_alone_are_enough_and_torques_are_not_read(model: md.Model, fr
 
 
 def test_names_and_units_are_kept_out_again(frame: Any, model: md.Model, tmp_path: Path) -> None:
-    given = odd(frame)
-    made = md.identify("two-link", given, mapping=MAPPING)
+    known = odd(frame)
+    made = md.identify("two-link", known, mapping=MAPPING)
     np.testing.assert_allclose(made.beta, model.beta, rtol=1e-6)
     expected = odd(pandas.concat([frame[["time", "q1", "q2"]], model.predict(frame)], axis=1))
-    predicted = made.predict(given)  # by the mapping that it keeps
+    predicted = made.predict(known)  # by the mapping that it keeps
     assert list(predicted.columns) == ["moment_a", "moment_b"]
     np.testing.assert_allclose(predicted, expected[["moment_a", "moment_b"]], rtol=1e-5, atol=1e-2)
     again = md.load(made.save(tmp_path / "odd.json"))
-    assert again.predict(given).equals(predicted) and again.error(given) == made.error(given)
-    given.to_csv(tmp_path / "odd.csv", index=False)
+    assert again.predict(known).equals(predicted) and again.error(known) == made.error(known)
+    known.to_csv(tmp_path / "odd.csv", index=False)
     read = again.predict(tmp_path / "odd.csv")
     assert read.index.name == "time" and list(read.columns) == ["moment_a", "moment_b"]
     np.testing.assert_allclose(read, predicted, rtol=1e-6)
@@ -155,11 +155,11 @@ def test_currents_come_out_as_currents(tmp_path: Path) -> None:
     (tmp_path / "arm.toml").write_text(text)
     robot = md.open_robot(tmp_path / "arm.toml")
     md.simulate(robot, tmp_path / "run.parquet", duration=4.0, seed=4)
-    given = pandas.read_parquet(tmp_path / "run.parquet")
-    given["current1"], given["current2"] = given.pop("tau1") / 12.5, given.pop("tau2") / -4.0
-    predicted = md.identify(robot, given).predict(given)
+    inputs = pandas.read_parquet(tmp_path / "run.parquet")
+    inputs["current1"], inputs["current2"] = inputs.pop("tau1") / 12.5, inputs.pop("tau2") / -4.0
+    predicted = md.identify(robot, inputs).predict(inputs)
     assert list(predicted.columns) == ["current1", "current2"]
-    measured = given[predicted.columns]
+    measured = inputs[predicted.columns]
     assert ((measured - predicted).std() < 0.1 * measured.std()).all()
 
 
@@ -167,14 +167,14 @@ def test_currents_come_out_as_currents(tmp_path: Path) -> None:
 def test_dates_are_times(kind: str, frame: Any, model: md.Model) -> None:
     since = pandas.to_timedelta(frame["time"], unit="s")
     at = pandas.Timestamp("2024-05-01T12:00:00") + since
-    given = frame.assign(time={"since": since, "UTC": at.dt.tz_localize("UTC")}.get(kind, at))
+    known = frame.assign(time={"since": since, "UTC": at.dt.tz_localize("UTC")}.get(kind, at))
     if kind == "index":
-        given = given.set_index("time").rename_axis(None)
-    given = polars.from_pandas(given) if kind == "Polars" else given
-    given = {n: given[n].to_numpy() for n in given} if kind == "dict" else given
-    made = md.identify("two-link", given)
+        known = known.set_index("time").rename_axis(None)
+    known = polars.from_pandas(known) if kind == "Polars" else known
+    known = {n: known[n].to_numpy() for n in known} if kind == "dict" else known
+    made = md.identify("two-link", known)
     np.testing.assert_allclose(made.beta, model.beta, rtol=1e-4, atol=1e-6)
-    assert len(made.predict(given)["tau1"]) == len(frame)
+    assert len(made.predict(known)["tau1"]) == len(frame)
 
 
 def test_a_piece_of_a_file(model: md.Model, run: Path) -> None:

@@ -50,11 +50,11 @@ def test_nothing_is_loaded_before_it_is_used(program: str, printed: str, tmp_pat
 
 def test_all_of_the_api_is_at_the_door_but_what_rooms_are_called() -> None:
     tree = ast.parse((ROOT / "__init__.pyi").read_text(encoding="utf-8"))
-    told = {a.asname for n in ast.walk(tree) if isinstance(n, ast.ImportFrom) for a in n.names}
-    assert told == {*api.__all__} - ROOMS
+    lines = {a.asname for n in ast.walk(tree) if isinstance(n, ast.ImportFrom) for a in n.names}
+    assert lines == {*api.__all__} - ROOMS
     assert {*api.__all__} & ROOMS == {"effects"}
-    assert told <= {*dir(modeler)}
-    for name in sorted(told):
+    assert lines <= {*dir(modeler)}
+    for name in sorted(lines):
         assert getattr(modeler, name) is getattr(api, name)
 
 

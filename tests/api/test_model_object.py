@@ -40,18 +40,18 @@ def model(place: Path, logs: list[str]) -> md.Model:
 @pytest.mark.rotating("long tests of api")
 def test_a_parameter_has_value_sigma_unit_interval_and_sum(model: md.Model) -> None:
     k = [p.name for p in model.fit.parameters].index("ZZ1R")
-    found = model["ZZ1R"]
-    assert (found.value, found.unit) == (model.beta[k], "kg m2")
-    assert found.sigma == pytest.approx(model.covariance[k, k] ** 0.5)
+    result = model["ZZ1R"]
+    assert (result.value, result.unit) == (model.beta[k], "kg m2")
+    assert result.sigma == pytest.approx(model.covariance[k, k] ** 0.5)
     for level in (0.5, 0.95, 0.999):
-        normal = NormalDist(found.value, found.sigma)
+        normal = NormalDist(result.value, result.sigma)
         expected = (normal.inv_cdf((1.0 - level) / 2.0), normal.inv_cdf((1.0 + level) / 2.0))
-        assert found.conf_int(level) == pytest.approx(expected, rel=1e-9)
+        assert result.conf_int(level) == pytest.approx(expected, rel=1e-9)
         np.testing.assert_allclose(model.conf_int(level).loc["ZZ1R"], expected)
-    assert float(found) == found.value and "+-" in repr(found) and "kg m2" in repr(found)
+    assert float(result) == result.value and "+-" in repr(result) and "kg m2" in repr(result)
     # what it is the sum of is the relation of the derivation
     text = md.derive(md.open_robot("demo-arm")).relations.text
-    assert found.relation in re.sub(r" +", " ", text)
+    assert result.relation in re.sub(r" +", " ", text)
     assert model["Fv3"].relation == "" and "Fv3" in model and "ZZ2" not in model
 
 
@@ -98,10 +98,10 @@ def test_residuals_are_those_of_the_fit(model: md.Model) -> None:
     assert list(left.columns) == ["tau1", "tau2", "tau3"]
     assert list(left.index.levels[0]) == ["mon.parquet", "tue.csv"]
     for joint in model.fit.joints:
-        own = left[f"tau{joint.name}"].dropna()
-        assert np.sqrt(np.mean(own**2)) == pytest.approx(joint.rms, rel=1e-9)
-        measured = own + fitted[f"tau{joint.name}"].dropna()
-        error = np.linalg.norm(own) / np.linalg.norm(measured)
+        actual = left[f"tau{joint.name}"].dropna()
+        assert np.sqrt(np.mean(actual**2)) == pytest.approx(joint.rms, rel=1e-9)
+        measured = actual + fitted[f"tau{joint.name}"].dropna()
+        error = np.linalg.norm(actual) / np.linalg.norm(measured)
         assert error == pytest.approx(joint.relative_error, rel=1e-9)
 
 
@@ -119,9 +119,9 @@ def test_errors_and_what_is_missing(model: md.Model, place: Path, logs: list[str
     held = str(place / "wed.parquet")
     assert model.error() == model.error(held) == md.compare(model, [held]).relative_error
     assert model.compare(held).to_dict() == md.compare(model, [held]).to_dict()
-    found = model.missing()
-    assert found.to_dict() == md.diagnose(model, logs, [held]).to_dict()
-    assert (found.effects[0].effect, found.effects[0].joint) == ("load_friction", "2")
+    result = model.missing()
+    assert result.to_dict() == md.diagnose(model, logs, [held]).to_dict()
+    assert (result.effects[0].effect, result.effects[0].joint) == ("load_friction", "2")
     better = model.add("load_friction", joint=2)
     assert isinstance(better, md.Model) and better.held_out == model.held_out
     assert better.error() < 0.5 * model.error()

@@ -26,16 +26,16 @@ def test_the_story_on_measured_logs(measured_folder: Path, tmp_path: Path) -> No
         ("Fs1", 20.394, "N"),
         ("Off1", -3.165, "N"),
     ):
-        found = model[name]
-        low, high = found.conf_int(0.95)
-        assert found.value == pytest.approx(printed, rel=0.02) and found.unit == unit
+        result = model[name]
+        low, high = result.conf_int(0.95)
+        assert result.value == pytest.approx(printed, rel=0.02) and result.unit == unit
         assert low < printed < high
     assert 0.02 < model.error(log) < 0.0408  # behind a narrower filter than theirs
     predicted, measured = model.predict(log), md.inspect_log(log)
     assert list(predicted.columns) == ["tau1"] and len(predicted) == measured.rows
     assert np.isfinite(predicted["tau1"]).mean() > 0.99
-    found = model.missing(held_out)
-    assert ("asymmetric_viscous", "1") in [(e.effect, e.joint) for e in found.effects]
+    result = model.missing(held_out)
+    assert ("asymmetric_viscous", "1") in [(e.effect, e.joint) for e in result.effects]
     better = model.add("asymmetric_viscous", joint=1, held_out=held_out)
     assert better["Fv1+"].value == pytest.approx(166.71, rel=0.03)
     assert better["Fv1-"].value == pytest.approx(240.42, rel=0.03)

@@ -57,8 +57,8 @@ def test_what_was_copied_computes_the_same(copied: Any) -> None:
 @pytest.mark.slow  # some seconds
 def test_through_joblib() -> None:
     joblib = pytest.importorskip("joblib")
-    given = [session()[name] for name in GIVEN]
-    results = joblib.Parallel(n_jobs=2)(joblib.delayed(computed)(*given) for _ in range(2))
+    inputs = [session()[name] for name in GIVEN]
+    results = joblib.Parallel(n_jobs=2)(joblib.delayed(computed)(*inputs) for _ in range(2))
     for result in results:
-        for one, other in zip(result, computed(*given), strict=True):
+        for one, other in zip(result, computed(*inputs), strict=True):
             np.testing.assert_array_equal(one, other)

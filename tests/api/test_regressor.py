@@ -61,10 +61,10 @@ def test_a_fit_is_that_of_identify(runs: list[Any], rows: Any) -> None:
     )
     np.testing.assert_allclose(fitted.model_.beta, model.beta, rtol=1e-9)
     held = {"time": runs[2].time, "q": runs[2].q}
-    expected, found = model.predict(held)["tau"], fitted.predict(X[~some])
+    expected, values = model.predict(held)["tau"], fitted.predict(X[~some])
     sure = np.isfinite(expected)
-    np.testing.assert_allclose(found[sure], expected[sure], rtol=1e-9)
-    assert np.isfinite(found).all()
+    np.testing.assert_allclose(values[sure], expected[sure], rtol=1e-9)
+    assert np.isfinite(values).all()
 
 
 @pytest.mark.slow  # some seconds
@@ -111,13 +111,13 @@ def test_what_cannot_be_is_refused_in_one_line(rows: Any) -> None:
     robot = regressor.TorqueRegressor("two-link")
     with pytest.raises(exceptions.NotFittedError):
         robot.predict(X)
-    for given, said in (
+    for entry, said in (
         ((X[:, :3], y), "X has 3 columns; expected number of the log, time, .* of 2 joints"),
         ((X, y[:, 0]), "y has 1 columns; expected the torque of 2 joints"),
         ((X[::-1], y), "X: got 1000 rows of log 0; expected at least 10, their time increasing"),
     ):
         with pytest.raises(DataError, match=said):
-            robot.fit(*given)
+            robot.fit(*entry)
     robot.fit(X, y)
     X = np.concatenate([X[:500], [[7.0, 0.0, 0.1, 0.1], [7.0, 0.1, 0.1, 0.1]]])
     with pytest.raises(DataError, match="got 2 rows of log 7; expected at least 10"):

@@ -88,21 +88,21 @@ def test_mypy_strict(programs: Path) -> None:
     packages = ("pandas", "sklearn", "sklearn.*")  # that are not typed themselves
     lines = "\n".join(f"[mypy-{name}]\nignore_missing_imports = true" for name in packages)
     (programs / "mypy.ini").write_text(f"[mypy]\nstrict = true\n{lines}\n")
-    status, told = run(programs, "mypy", *right(programs))
-    assert status == 0, told
-    status, told = run(programs, "mypy", "wrong.py")
-    lines_told = {line.split(":")[1] for line in told.splitlines() if ": error:" in line}
-    assert lines_told == {"4", "5", "6", "7", "8"}, told
+    status, out = run(programs, "mypy", *right(programs))
+    assert status == 0, out
+    status, out = run(programs, "mypy", "wrong.py")
+    lines_told = {line.split(":")[1] for line in out.splitlines() if ": error:" in line}
+    assert lines_told == {"4", "5", "6", "7", "8"}, out
 
 
 def test_pyright(programs: Path) -> None:
     if importlib.util.find_spec("pyright") is None or shutil.which("node") is None:
         pytest.skip("NOT CHECKED: pyright needs the package pyright and node")
     words = ("pyright", "--pythonpath", sys.executable)
-    status, told = run(programs, *words, *right(programs))
-    if "npm" in told and status not in (0, 1):
-        pytest.skip(f"NOT CHECKED: pyright cannot be loaded here: {told[-300:]}")
-    assert status == 0, told
-    status, told = run(programs, *words, "wrong.py")
-    lines_told = {line.split(":")[1] for line in told.splitlines() if " error: " in line}
-    assert status == 1 and lines_told == {"4", "5", "6", "7", "8"}, told
+    status, out = run(programs, *words, *right(programs))
+    if "npm" in out and status not in (0, 1):
+        pytest.skip(f"NOT CHECKED: pyright cannot be loaded here: {out[-300:]}")
+    assert status == 0, out
+    status, out = run(programs, *words, "wrong.py")
+    lines_told = {line.split(":")[1] for line in out.splitlines() if " error: " in line}
+    assert status == 1 and lines_told == {"4", "5", "6", "7", "8"}, out

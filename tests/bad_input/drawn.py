@@ -95,9 +95,9 @@ class Drawer:
 
     def _as_bytes(self, kind: str) -> Mutant:
         name = AS_BYTES[kind]
-        content, told = self._bytes(self._made(name))
+        content, out = self._bytes(self._made(name))
         bad = f"bad{Path(name).suffix}"
-        return kind, told, {bad: content}, f"convert {bad} --out x.toml"
+        return kind, out, {bad: content}, f"convert {bad} --out x.toml"
 
     def _made(self, name: str) -> bytes:
         return (self.inputs.folder / name).read_bytes()
@@ -131,22 +131,22 @@ class Drawer:
         text = self.random.choice(ROBOTS)
         command = "derive bad.toml --no-terms --json d.json"
         if self.random.random() < 0.5:
-            content, told = self._bytes(text.encode())
+            content, message = self._bytes(text.encode())
         else:
             document = tomllib.loads(text)
-            told = self._structure(document)
+            message = self._structure(document)
             content = toml_text(document).encode(errors="replace")
-        return "robot TOML", told, {"bad.toml": content}, command
+        return "robot TOML", message, {"bad.toml": content}, command
 
     def _columns(self) -> tuple[dict[str, np.ndarray], str]:
         """A log whose columns are exchanged, spoilt, gone, short."""
         pick = self.random
         table = {name: v[:SAMPLES].copy() for name, v in self.inputs.log("a.csv").items()}
-        told = []
+        lines = []
         for _ in range(pick.randint(1, 2)):
             name, other = pick.choice(list(table)), pick.choice(list(table))
             how = pick.choice(["exchange", "gone", "times", "value", "roll", "same", "cut", "none"])
-            told.append(f"{how} {name}")
+            lines.append(f"{how} {name}")
             if how == "exchange":
                 table[name], table[other] = table[other], table[name]
             elif how == "gone" and len(table) > 1:
@@ -169,39 +169,39 @@ class Drawer:
                 rows = pick.choice([0, 1, 5, 30, 150])
                 table = {n: v[:rows] for n, v in table.items()}
                 break
-        return table, ", ".join(told)
+        return table, ", ".join(lines)
 
     def _csv(self) -> Mutant:
         if self.random.random() < 0.5:
-            table, told = self._columns()
+            table, note = self._columns()
             content = csv_text(table).encode()
         else:
             short = {n: v[:SAMPLES] for n, v in self.inputs.log("a.csv").items()}
-            content, told = self._bytes(csv_text(short).encode())
-        return "log CSV", told, {"bad.csv": content}, LOG.format(".csv")
+            content, note = self._bytes(csv_text(short).encode())
+        return "log CSV", note, {"bad.csv": content}, LOG.format(".csv")
 
     def _parquet(self) -> Mutant:
-        columns, told = self._columns()
+        columns, stated = self._columns()
         table = {name: pa.array(values) for name, values in columns.items()}
         if self.random.random() < 0.4:
             name, kind = self.random.choice(list(table)), self.random.choice(KINDS)
             table[name] = _cast(table[name], kind)
-            told += f", {name} as {kind}"
+            stated += f", {name} as {kind}"
         file = io.BytesIO()
         pq.write_table(pa.table(table), file)
         content = file.getvalue()
         if self.random.random() < 0.5:
-            content, told = self._bytes(content)
-        return "log Parquet", told, {"bad.parquet": content}, LOG.format(".parquet")
+            content, stated = self._bytes(content)
+        return "log Parquet", stated, {"bad.parquet": content}, LOG.format(".parquet")
 
     def _model(self) -> Mutant:
         if self.random.random() < 0.5:
-            content, told = self._bytes(self._made("m.json"))
+            content, report = self._bytes(self._made("m.json"))
         else:
             raw = self.inputs.model("added.json")
-            told = self._structure(raw)
+            report = self._structure(raw)
             content = json.dumps(raw).encode(errors="replace")
-        return "model JSON", told, {"bad.json": content}, "compare bad.json b.csv --json c.json"
+        return "model JSON", report, {"bad.json": content}, "compare bad.json b.csv --json c.json"
 
     def _map(self) -> Mutant:
         good = {

@@ -30,17 +30,17 @@ def farthest(found: dict[str, float]) -> tuple[str, float]:
 
 def true_values(result: Result) -> None:
     """Every base parameter within 5 % of the truth."""
-    found = _fitted(result)
-    worst, off = farthest(found)
-    assert off < 0.05, f"{worst} = {found[worst]:.4g}, truth {TRUE[worst]:g}"
+    fit = _fitted(result)
+    worst, off = farthest(fit)
+    assert off < 0.05, f"{worst} = {fit[worst]:.4g}, truth {TRUE[worst]:g}"
 
 
 def unusable_or_true(result: Result) -> None:
     """Values that are far from the truth are not called usable."""
-    found = _fitted(result)
-    worst, off = farthest(found)
+    fit = _fitted(result)
+    worst, off = farthest(fit)
     raw = _written(result)
     doubts = raw.get("warnings", [])
     assert off < 0.2 or raw.get("valid") is False or doubts, (
-        f"{worst} = {found[worst]:.4g} for {TRUE[worst]:g} without a warning"
+        f"{worst} = {fit[worst]:.4g} for {TRUE[worst]:g} without a warning"
     )

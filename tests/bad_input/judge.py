@@ -58,16 +58,16 @@ def faults(row: Row, workdir: Workdir) -> list[str]:
     before = workdir.state()
     result = _run(row, workdir)
     after = workdir.state()
-    found = [result.broke] if result.broke else []
-    if not found:
-        found += ending(row, result)
-    found += disturbed(row, result, before, after)
-    if not found and row.check is not None and result.status == 0:
+    actual = [result.broke] if result.broke else []
+    if not actual:
+        actual += ending(row, result)
+    actual += disturbed(row, result, before, after)
+    if not actual and row.check is not None and result.status == 0:
         try:
             row.check(result)
         except AssertionError as error:
-            found.append(f"silently wrong: {error}")
-    return found
+            actual.append(f"silently wrong: {error}")
+    return actual
 
 
 def _run(row: Row, workdir: Workdir) -> Result:
@@ -112,7 +112,7 @@ def _traceback(error: BaseException) -> str:
 @contextlib.contextmanager
 def inside(workdir: Workdir) -> Iterator[None]:
     """The workdir as the current folder, the temporary one, and home; warnings are errors."""
-    here, kept = Path.cwd(), tempfile.tempdir
+    here, stored = Path.cwd(), tempfile.tempdir
     home = os.environ.get("HOME")
     os.chdir(workdir.work)
     tempfile.tempdir = str(workdir.temporary)
@@ -123,7 +123,7 @@ def inside(workdir: Workdir) -> Iterator[None]:
             yield
     finally:
         os.chdir(here)
-        tempfile.tempdir = kept
+        tempfile.tempdir = stored
         if home is not None:
             os.environ["HOME"] = home
 
@@ -176,20 +176,20 @@ def _in_a_process(words: tuple[str, ...], how: Process, workdir: Workdir) -> Res
 
 def ending(row: Row, result: Result) -> list[str]:
     """Exit status, and what was said."""
-    found = []
+    values = []
     if row.outcome == "refused" or (row.outcome == "ends" and result.status != 0):
         if result.status not in (1, 2):
             return [f"silent: exit status {result.status}; expected 1 or 2 and a line"]
-        found += clear(row.run if isinstance(row.run, tuple) else (), result)
-        found += _lacking(row.words, result.err)
+        values += clear(row.run if isinstance(row.run, tuple) else (), result)
+        values += _lacking(row.words, result.err)
     else:
         if result.status != 0:
             said = result.err.strip() or result.out.strip()
             return [f"exit status {result.status}; expected 0: {said[-300:]}"]
         if row.outcome in ("works", "ends") and result.err:
-            found.append(f"works, but complains: {result.err.strip()[:300]}")
-        found += _lacking(row.words, result.out + result.err)
-    return found
+            values.append(f"works, but complains: {result.err.strip()[:300]}")
+        values += _lacking(row.words, result.out + result.err)
+    return values
 
 
 def _lacking(words: tuple[str, ...], text: str) -> list[str]:
@@ -202,16 +202,16 @@ def clear(words: tuple[str, ...], result: Result) -> list[str]:
     lines = result.err.splitlines()
     if len(lines) != 1 or not result.err.endswith("\n"):
         return [f"unclear: {len(lines)} lines on stderr; expected one: {result.err[:300]!r}"]
-    line, found = lines[0], []
+    line, values = lines[0], []
     if not line.startswith("modeler"):
-        found.append(f"unclear: does not say who speaks: {line[:200]}")
+        values.append(f"unclear: does not say who speaks: {line[:200]}")
     if len(line) > LONGEST:
-        found.append(f"unclear: {len(line)} characters: {line[:200]} ...")
+        values.append(f"unclear: {len(line)} characters: {line[:200]} ...")
     if words and not _names_a_place(words, line):
-        found.append(f"unclear: names no file, option or argument: {line[:300]}")
+        values.append(f"unclear: names no file, option or argument: {line[:300]}")
     if not REMEDY.search(line.lower()):
-        found.append(f"unclear: says not what to do: {line[:300]}")
-    return found
+        values.append(f"unclear: says not what to do: {line[:300]}")
+    return values
 
 
 def _names_a_place(words: tuple[str, ...], line: str) -> bool:
@@ -242,17 +242,17 @@ def disturbed(row, result, before, after):
             out.startswith(f"{name}/") for out in outputs
         )
 
-    found = [
+    values = [
         f"destructive: {name} was {'changed' if name in after else 'removed'}"
         for name in before
         if after.get(name) != before[name] and not may(name)
     ]
     new = [name for name in after if name not in before]
-    found += [f"left behind: {name}" for name in new if not may(name)][:3]
+    values += [f"left behind: {name}" for name in new if not may(name)][:3]
     for name in new:
         if may(name):
-            found += _broken(result.workdir.folder / name)
-    return found
+            values += _broken(result.workdir.folder / name)
+    return values
 
 
 def _outputs(row: Row, done: bool) -> set[str]:

@@ -57,8 +57,8 @@ def _read(name: str, content: str, workdir: Workdir) -> object:
 
 def _file(content: str) -> str:
     """A name for a robot file: that of the good file, by which messages call the robot too."""
-    found = re.search(r'^name = "(\w+)"$', content, re.MULTILINE)
-    return f"{found[1][:20] if found else 'bad'}.toml"
+    result = re.search(r'^name = "(\w+)"$', content, re.MULTILINE)
+    return f"{result[1][:20] if result else 'bad'}.toml"
 
 
 def derived(what: str, text: str, edits: Iterable[str], *words: str) -> Row:

@@ -61,8 +61,8 @@ def test_the_judge_sees_an_unclear_line(err, piece, inputs, tmp_path):
     """The judge itself: lines that users must not get."""
     workdir = Workdir(tmp_path, inputs)
     bad_row = made("x: y", "refused", "derive bad.toml", "got 3")
-    found = ending(bad_row, Result(1 if err else 0, "", err, "", workdir))
-    assert any(piece in line for line in found)
+    result = ending(bad_row, Result(1 if err else 0, "", err, "", workdir))
+    assert any(piece in line for line in result)
 
 
 @pytest.mark.rotating("long tests of bad_input")
@@ -73,11 +73,11 @@ def test_the_judge_sees_what_was_changed_and_left(inputs, tmp_path):
     result = Result(0, "", "", "", workdir)
     before = {"work/a.csv": "1", "work/r.toml": "2"}
     after = {"work/a.csv": "3", "work/m.json": "4", "work/x.tmp": "5"}
-    found = " ".join(disturbed(bad_row, result, before, after))
+    text = " ".join(disturbed(bad_row, result, before, after))
     for piece in (
         "a.csv was changed",
         "r.toml was removed",
         "left behind: work/x.tmp",
         "half-written: m.json",
     ):
-        assert piece in found
+        assert piece in text

@@ -131,16 +131,16 @@ class Workdir:
 
     def state(self) -> dict[str, str]:
         """What stands in the workdir: relative path to kind and fingerprint."""
-        found: dict[str, str] = {}
+        values: dict[str, str] = {}
         for path in sorted(self.folder.rglob("*")):
             name = path.relative_to(self.folder).as_posix()
             if path.is_symlink():
-                found[name] = f"link {path.readlink()}"
+                values[name] = f"link {path.readlink()}"
             elif path.is_file():
-                found[name] = hashlib.sha256(path.read_bytes()).hexdigest()
+                values[name] = hashlib.sha256(path.read_bytes()).hexdigest()
             else:
-                found[name] = "folder" if path.is_dir() else f"node {path.stat().st_mode:o}"
-        return found
+                values[name] = "folder" if path.is_dir() else f"node {path.stat().st_mode:o}"
+        return values
 
 
 def read_csv(path: Path) -> Table:

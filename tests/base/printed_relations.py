@@ -46,8 +46,8 @@ def of_header(page: str) -> Relations:
     """The comment about beta in the emitted header, continued lines joined."""
     block = page.split("/* beta: ")[1].split("*/")[0]
     joined = re.sub(r"\n \* {9,}", " ", block)
-    found = re.findall(r"^ \* +\d+  (.*?) +\[[^]]*\]$", joined, re.M)
-    return [_sides(line) for line in found]
+    matches = re.findall(r"^ \* +\d+  (.*?) +\[[^]]*\]$", joined, re.M)
+    return [_sides(line) for line in matches]
 
 
 def of_table(page: str) -> Relations:

@@ -23,30 +23,32 @@ SEED = 11
 @pytest.mark.parametrize("name", ROBOTS)
 def test_every_built_in_robot_is_certified(name):
     model, base, _ = module(name)
-    found = base.proof.certificate
-    assert isinstance(found, relations.ModularRank if model.closure is None else relations.BallRank)
-    assert found.rank == base.rank == base.proof.numeric_rank and base.proof.kind == "exact"
+    result = base.proof.certificate
+    assert isinstance(
+        result, relations.ModularRank if model.closure is None else relations.BallRank
+    )
+    assert result.rank == base.rank == base.proof.numeric_rank and base.proof.kind == "exact"
     assert base.proof.agreement < 1e-12  # base torque is standard torque
     last, first = base.proof.gap
     assert first < 1e-9 * last
-    told = relations.serialise_base_parameters(name, base)["certificate"]
-    assert told["exact_rank"] == base.rank
-    assert (told["prime"] is None) == (model.closure is not None)
+    text = relations.serialise_base_parameters(name, base)["certificate"]
+    assert text["exact_rank"] == base.rank
+    assert (text["prime"] is None) == (model.closure is not None)
 
 
 def test_dependent_columns_are_not_certified(name="five-bar"):
     """One column more than the base, which others make up; one without any effect."""
     model, base, _ = module(name)
-    kept = [parameter.column for parameter in base.parameters]
+    rest = [parameter.column for parameter in base.parameters]
     sample = numeric_rank.draw_sample(model, 60, SEED)
-    assert isinstance(numeric_rank.prove_rank(model, kept, sample, SEED), relations.BallRank)
+    assert isinstance(numeric_rank.prove_rank(model, rest, sample, SEED), relations.BallRank)
     grouped = {term.parameter for p in base.parameters for term in p.terms[1:]}
     one = next(i for i, name in enumerate(model.names) if name in grouped)
-    found = numeric_rank.prove_rank(model, [*kept, one], sample, SEED)
-    assert isinstance(found, relations.SampledRank) and "hold a singular matrix" in found.why
+    result = numeric_rank.prove_rank(model, [*rest, one], sample, SEED)
+    assert isinstance(result, relations.SampledRank) and "hold a singular matrix" in result.why
     nothing = model.names.index(base.unidentifiable[0])
-    found = numeric_rank.prove_rank(model, [*kept, nothing], sample, SEED)
-    assert isinstance(found, relations.SampledRank)
+    result = numeric_rank.prove_rank(model, [*rest, nothing], sample, SEED)
+    assert isinstance(result, relations.SampledRank)
 
 
 def test_postures_off_the_loops_are_not_enclosed():
@@ -71,29 +73,29 @@ def test_postures_off_the_loops_are_not_enclosed():
 def test_anyone_can_run_the_certificate_again(name):
     """From the JSON alone, in floating point: the rows that it names have full rank."""
     model, base, _ = module(name)
-    told = json.loads(
+    data = json.loads(
         json.dumps(relations.serialise_base_parameters(name, base)["certificate"]["independence"])
     )
-    states = told["states"]
+    states = data["states"]
     free = [joint.name for joint in model.robot.free_joints]
     names = [joint.name for joint in model.robot.coordinates]
     kinds = (("positions", free), ("speeds", names), ("accelerations", names))
-    u, qd, qdd = (np.array([[s[kind][k] for k in own] for s in states]) for kind, own in kinds)
+    u, qd, qdd = (np.array([[s[kind][k] for k in item] for s in states]) for kind, item in kinds)
     closed = model.closure.close_loops(u)
     assert np.max(np.abs(closed - u)) < 1e-4
     phi = numeric_rank.evaluate_regressor(model, numeric_rank.expand_states(model, closed, qd, qdd))
-    rows = [phi[i, names.index(joint)] for i, joint in told["rows"]]
+    rows = [phi[i, names.index(joint)] for i, joint in data["rows"]]
     W = np.array(rows)[:, [parameter.column for parameter in base.parameters]]
-    assert told["kind"] == "balls" and W.shape == (base.rank, base.rank)
+    assert data["kind"] == "balls" and W.shape == (base.rank, base.rank)
     assert np.linalg.matrix_rank(W / np.linalg.norm(W, axis=0), tol=1e-12) == base.rank
 
 
 def test_more_bits_are_taken_where_few_do_not_do(monkeypatch):
     model, base, _ = module("five-bar")
-    kept = [parameter.column for parameter in base.parameters]
+    rest = [parameter.column for parameter in base.parameters]
     monkeypatch.setattr(balls, "THRESHOLDS", replace(balls.THRESHOLDS, ball_bits=(12, 128)))
-    found = numeric_rank.prove_rank(model, kept, numeric_rank.draw_sample(model, 60, SEED), SEED)
-    assert isinstance(found, relations.BallRank) and found.bits == 128
+    result = numeric_rank.prove_rank(model, rest, numeric_rank.draw_sample(model, 60, SEED), SEED)
+    assert isinstance(result, relations.BallRank) and result.bits == 128
 
 
 def test_what_is_sampled_only_says_so(monkeypatch):
@@ -103,9 +105,9 @@ def test_what_is_sampled_only_says_so(monkeypatch):
     assert base.rank == 11 and base.proof.kind == "relations exact, rank sampled"
     text = " ".join(relations.format_proof(base.proof).split())
     assert "Independence is not proven" in text and "rank 11 in floating point only" in text
-    told = relations.serialise_base_parameters("five-bar", base)["certificate"]
-    assert told["prime"] is told["exact_rank"] is told["points"] is None
-    assert told["independence"]["kind"] == "sampled" and told["independence"]["why"]
+    message = relations.serialise_base_parameters("five-bar", base)["certificate"]
+    assert message["prime"] is message["exact_rank"] is message["points"] is None
+    assert message["independence"]["kind"] == "sampled" and message["independence"]["why"]
 
 
 def test_a_planar_loop_on_a_body_that_turns_has_no_equation_too_many():
@@ -121,15 +123,15 @@ def test_equations_that_follow_for_other_reasons_are_not_taken_for_implied():
     walk = draw_closed_walk(model, 60, np.random.default_rng(3))
     assert np.max(model.closure.compute_openness(walk.postures)) < 1e-12
     base = derive_base_parameters(model)
-    found = base.proof.certificate
-    assert base.rank == 7 and isinstance(found, relations.SampledRank)
-    assert "3 closure equations seem to follow from the others" in found.why
+    result = base.proof.certificate
+    assert base.rank == 7 and isinstance(result, relations.SampledRank)
+    assert "3 closure equations seem to follow from the others" in result.why
 
 
 def test_numbers_without_loops_have_a_proven_lower_bound():
     rows, gravity, more, rank, kind = CASES["tilted base, radicals"]
     base = derive_base_parameters(model_of(rows, gravity, more))
-    found = base.proof.certificate
+    result = base.proof.certificate
     assert (base.rank, base.proof.kind) == (rank, kind)
-    assert isinstance(found, relations.BallRank) and found.rank == rank
+    assert isinstance(result, relations.BallRank) and result.rank == rank
     assert "states of few digits" in relations.format_proof(base.proof)

@@ -38,10 +38,10 @@ def answers(types: str) -> dict:
         env={**os.environ, "SYMPY_GROUND_TYPES": types},
         check=True,
     )
-    used, told = done.stdout.split(" ", 1)
+    used, lines = done.stdout.split(" ", 1)
     if used != types:
         pytest.skip(f"NOT CHECKED: sympy takes {used} here, not {types}")
-    return json.loads(told)
+    return json.loads(lines)
 
 
 @pytest.mark.slow

@@ -28,17 +28,17 @@ LETTERS = {"D4": 0.3, "rP": 0.4, "L_a": 0.55, "gam13": 0.7, "b": 0.85, "B2_x": 1
 
 def wrong(robot: str, base: BaseParameters, emitted: EmittedModule, seed: int) -> list[str]:
     """What is printed of a robot and is not its relation."""
-    exact, found, forms = Exact(base.parameters, seed), [], 0
+    exact, values, forms = Exact(base.parameters, seed), [], 0
     for form, relations, read in printed_forms(robot, base, emitted):
         forms += 1
         if [name for name, _ in relations] != [p.name for p in base.parameters]:
-            found.append(f"{robot}, {form}: {[name for name, _ in relations]}")
+            values.append(f"{robot}, {form}: {[name for name, _ in relations]}")
             continue
         for parameter, (name, printed) in zip(base.parameters, relations, strict=True):
             if not exact.differences(parameter, printed, read) <= NEAR:
-                found.append(f"{robot}, {form}: {name} = {printed}")
+                values.append(f"{robot}, {form}: {name} = {printed}")
     assert forms == FORMS
-    return found
+    return values
 
 
 @pytest.mark.parametrize("name", ROBOTS)

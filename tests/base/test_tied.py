@@ -162,8 +162,8 @@ def test_plain_trees_give_what_link_by_link_elimination_gives(name):
     order = list(range(len(model.columns)))
     rows = derive_column_relations(model, model.geometry, K, 1).rows
     wanted = [row for row in rows if {*row} <= {*energetic(model)}]
-    found = derive_tied_relations(model.geometry, model.columns, K, order, 8)
-    assert _reduced(found, order) == _reduced(wanted, order)
+    result = derive_tied_relations(model.geometry, model.columns, K, order, 8)
+    assert _reduced(result, order) == _reduced(wanted, order)
 
 
 def _reduced(rows, order):

@@ -34,10 +34,10 @@ rows = [["1", 0, 0, "q1", 0], ["2", "-pi/2", {a}, "q2", 0], ["3", "pi/3", {b}, "
 
 
 def coefficients(robot):
-    told = serialise_base_parameters("arm", derive(robot).base)
+    data = serialise_base_parameters("arm", derive(robot).base)
     return {
         (base["name"], term["parameter"]): term["coefficient"]
-        for base in told["base"]
+        for base in data["base"]
         for term in base["terms"]
     }
 

@@ -149,12 +149,12 @@ def check_colours(browser: Chromium) -> None:
     pairs = [(fill, "rgb(255, 255, 255)") for fill in fills]  # pictures stay on white
     for scheme, darkest in (("dark", 0.1), ("light", 1.1)):
         browser.page.emulate_media(color_scheme=scheme)
-        found = browser.value(_COLOURS)
-        assert len(found) > 20 and any(luminance(ground) < darkest for _, ground in found)
-        pairs += map(tuple, found)
-    for color, ground in {*pairs}:
-        high, low = sorted((luminance(color), luminance(ground)), reverse=True)
-        assert (high + 0.05) / (low + 0.05) >= 4.5, (color, ground)
+        value = browser.value(_COLOURS)
+        assert len(value) > 20 and any(luminance(reference) < darkest for _, reference in value)
+        pairs += map(tuple, value)
+    for color, base in {*pairs}:
+        high, low = sorted((luminance(color), luminance(base)), reverse=True)
+        assert (high + 0.05) / (low + 0.05) >= 4.5, (color, base)
 
 
 def downloaded(browser: Chromium, folder: Path, pictures: int) -> list[dict[str, str]]:

@@ -72,8 +72,8 @@ def test_poses_and_loops_are_those_of_python(calculator: Chromium, name: str) ->
     content = json.dumps(build_page_content(skeleton, home))
     u = home.u + np.random.default_rng(5).uniform(-1.0, 1.0, len(home.u))
     calculator.value(f"window.asked = {content}, window.at = {u.tolist()}, 0")
-    found = calculator.value("posesAt(asked, at)")
-    for pose, expected in zip(found, compute_poses(skeleton, u), strict=True):
+    value = calculator.value("posesAt(asked, at)")
+    for pose, expected in zip(value, compute_poses(skeleton, u), strict=True):
         np.testing.assert_allclose(np.array(pose["R"]).T, expected[:3, :3], atol=1e-12)
         np.testing.assert_allclose(pose["p"], expected[:3, 3], atol=1e-12)
     if skeleton.robot.loops:
@@ -258,13 +258,13 @@ def test_what_the_file_says_is_text(browser, tmp_path) -> None:
     shown(browser, tmp_path, text)
     assert browser.value("document.querySelectorAll('img').length + (window.ran || 0)") == 0
     assert browser.value("document.querySelector('#loops td').textContent") == mark
-    told = str(browser.value("document.querySelector('header p').textContent"))
-    assert told.startswith(f"modeler show {mark}")
+    message = str(browser.value("document.querySelector('header p').textContent"))
+    assert message.startswith(f"modeler show {mark}")
 
 
 def test_pointing_at_a_joint_tells_its_row(browser, tmp_path) -> None:
     shown(browser, tmp_path, read_builtin_robot("puma560"))
-    told: dict[str, Any] = browser.value(
+    text: dict[str, Any] = browser.value(
         "(() => { const v = modelerShow.view, p = v.flat(v.point([2, 0, 0, -0.07505]));"
         "const c = document.getElementById('picture'), box = c.getBoundingClientRect();"
         "c.dispatchEvent(new PointerEvent('pointermove', {clientX: box.left + p.x,"
@@ -272,9 +272,9 @@ def test_pointing_at_a_joint_tells_its_row(browser, tmp_path) -> None:
         "return {tip: document.getElementById('tip').innerText,"
         "row: document.querySelector('tr.pointed').cells[0].textContent}; })()"
     )
-    assert told["row"] == "3"
-    assert "row 3 · on 2 · revolute, actuated" in told["tip"]
-    assert "D3" in told["tip"] and "0.4318 m" in told["tip"] and "0.1501 m" in told["tip"]
+    assert text["row"] == "3"
+    assert "row 3 · on 2 · revolute, actuated" in text["tip"]
+    assert "D3" in text["tip"] and "0.4318 m" in text["tip"] and "0.1501 m" in text["tip"]
 
 
 def test_a_classical_table_is_shown_in_its_letters(browser, tmp_path) -> None:
@@ -295,9 +295,9 @@ def test_a_classical_table_is_shown_in_its_letters(browser, tmp_path) -> None:
         ["tool", "0", "2", "0", "0", "0", "0", ""],
     ]
     browser.value("document.getElementById('numbers').click()")
-    told = browser.value(body)
-    assert told[1][3:7] == ["0", "0.2", "0.3", "1.5708"]
-    assert told[2][3:7] == ["1.5708", "0", "0.25", "0"]
+    message = browser.value(body)
+    assert message[1][3:7] == ["0", "0.2", "0.3", "1.5708"]
+    assert message[2][3:7] == ["1.5708", "0", "0.25", "0"]
     browser.value("tip(1, 0, 0)")
     tip = browser.value("document.getElementById('tip').innerText")
     assert "a of 1" in tip and "alpha of 1" in tip and "theta" in tip

@@ -126,12 +126,12 @@ def _let_it_stick(plant: Plant, rng: np.random.Generator) -> None:
 
 def _recorded(q, wanted, torque, plant, truth, choices, rng):
     """The columns of a log, as this machine's recorder writes them."""
-    own = np.random.default_rng(choices)  # what both logs of a machine share
+    item = np.random.default_rng(choices)  # what both logs of a machine share
     n, ticks = q.shape[1], np.arange(len(q))
     every = round(1 / (TICK * truth.rate))
     rows, time = ticks[::every], ticks[::every] * TICK
     if "uneven" in truth.ways:
-        spread = own.uniform(0.1, 0.4) * every * TICK
+        spread = item.uniform(0.1, 0.4) * every * TICK
         time = np.sort(time + rng.uniform(-spread, spread, len(time)))
         time -= time[0]
         rows = np.clip(np.round(time / TICK).astype(int), 0, len(q) - 1)
@@ -140,22 +140,22 @@ def _recorded(q, wanted, torque, plant, truth, choices, rng):
         rows, time = rows[unique], time[unique]
     step = np.array([plant.encoder_step[j] for j in range(n)])
     counted = step * np.ones(n)
-    if own.uniform() < 0.5:  # an encoder of the kind that many arms have
-        counted = np.maximum(step, 2 * np.pi / 2 ** own.integers(14, 18, n))
+    if item.uniform() < 0.5:  # an encoder of the kind that many arms have
+        counted = np.maximum(step, 2 * np.pi / 2 ** item.integers(14, 18, n))
     read = np.floor(q / counted + 0.5) * counted
     columns = {"time": time}
     columns |= {f"q{j + 1}": read[rows, j] for j in range(n)}
     truth.steps |= {f"q{j + 1}": float(counted[j]) for j in range(n)}
-    if own.uniform() < 0.5:
+    if item.uniform() < 0.5:
         columns |= {f"qc{j + 1}": wanted[rows, j] for j in range(n)}
-    if "slow" in truth.ways or own.uniform() < 0.3:
-        columns |= _logged_speeds(read, rows, float(own.uniform(0.002, 0.02)))
-    grain = float(own.choice([0.0, 0.01, 0.05]))
+    if "slow" in truth.ways or item.uniform() < 0.3:
+        columns |= _logged_speeds(read, rows, float(item.uniform(0.002, 0.02)))
+    grain = float(item.choice([0.0, 0.01, 0.05]))
     measured = torque[rows]
     measured = np.round(measured / grain) * grain if grain else measured
     columns |= {f"tau{j + 1}": measured[:, j] for j in range(n)}
     if "held" in truth.ways:
-        _hold(columns, truth, own, n)
+        _hold(columns, truth, item, n)
     if "gaps" in truth.ways:
         columns = _with_gaps(columns, rng)
     return columns

@@ -31,11 +31,11 @@ def test_closed_forms_and_columns(capsys, tmp_path):
     path = tmp_path / "d.json"
     out = answer(capsys, "derive", "sr400", "--closed-form", "--regressor", "--json", path)
     assert "J66 = ZZ6" in out and "# column of XX2R" in out
-    found = json.loads(path.read_text())
+    data = json.loads(path.read_text())
     for key, result in (("closed_form", "J66"), ("regressor", "phi6_ZZ6")):
-        lines = {d["name"]: d["formula"] for d in found[key]["definitions"] if d["result"]}
+        lines = {d["name"]: d["formula"] for d in data[key]["definitions"] if d["result"]}
         assert f"{result} = {lines[result]}" in out.splitlines()
-        assert found[key]["angles"]["2m7"] == "q2 - q7" and found[key]["equation"]
+        assert data[key]["angles"]["2m7"] == "q2 - q7" and data[key]["equation"]
 
 
 @with_cases(

@@ -51,8 +51,8 @@ def test_gains_are_found_and_weigh_a_second_load(arm, capsys):
     for entry in gains:
         assert abs(entry["value"] - 2.0) < 5.0 * entry["sigma"] < 0.2
     model = load_model(arm / "model.json")
-    for joint, found in zip(model.spec.joints, model.fit.gains, strict=True):
-        assert joint.drive_gain == pytest.approx(found.value, rel=1e-6)
+    for joint, item in zip(model.spec.joints, model.fit.gains, strict=True):
+        assert joint.drive_gain == pytest.approx(item.value, rel=1e-6)
     for robot, gain in (("found", 2.0), ("maker", 1.9)):  # the load is 1.2 kg, 0.3 m away
         words = (
             "fit",

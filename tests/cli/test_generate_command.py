@@ -43,8 +43,8 @@ def test_the_robot_after_its_model_leaves_no_fitted_files(place, capsys, tmp_pat
     left = {path.name for path in tmp_path.rglob("*")}
     assert "two_link.c" in left and not {name for name in left if "fitted" in name}
     # The learner needs no values.
-    kept = {"example_computed_torque.c", "example_adaptive.c"}
-    assert {name for name in left if "example" in name} == kept
+    rest = {"example_computed_torque.c", "example_adaptive.c"}
+    assert {name for name in left if "example" in name} == rest
 
 
 def test_a_model_where_a_robot_is_expected_and_the_other_way(place, capsys, tmp_path):

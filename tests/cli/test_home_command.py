@@ -127,14 +127,14 @@ def test_mistakes_are_told_in_a_line(crank, capsys, words, message) -> None:
 
 def test_a_file_that_may_not_be_written_is_told_before_the_work(crank, capsys, monkeypatch) -> None:
     monkeypatch.setattr(os, "access", lambda path, mode: False)
-    monkeypatch.setattr("modeler.api.postures.home", lambda *given: pytest.fail("searched"))
+    monkeypatch.setattr("modeler.api.postures.home", lambda *inputs: pytest.fail("searched"))
     err = refusal(capsys, "home", "bare.toml", "--write")
     assert "bare.toml: cannot be written (Permission denied)" in err
     assert Path("bare.toml").read_text() == BARE
 
 
 def test_another_programs_file_is_never_written_over(crank, capsys, monkeypatch) -> None:
-    monkeypatch.setattr("modeler.api.postures.home", lambda *given: pytest.fail("searched"))
+    monkeypatch.setattr("modeler.api.postures.home", lambda *inputs: pytest.fail("searched"))
     for name in ("ARM2.PAR", "none.par"):
         err = refusal(capsys, "home", name, "--write")
         hint = f"convert it with `modeler convert {name} --out {Path(name).with_suffix('.toml')}`"

@@ -94,9 +94,9 @@ def test_a_method_that_needs_all_rows_reads_them_or_says_that_they_are_too_many(
     assert "reading" not in fitted(place, "robust", "--method", "robust")
     monkeypatch.setattr(regression, "MOST_WHOLE", 5000)
     words = ("fit", "two-link", place / "run.parquet", "--out", place / "m.json")
-    told = complaint(capsys, *words, "--method", "robust")
-    assert "method robust keeps all rows in memory; got 9000 rows, expected at most 5000" in told
-    assert "--method weighted or ordinary" in told
+    out = complaint(capsys, *words, "--method", "robust")
+    assert "method robust keeps all rows in memory; got 9000 rows, expected at most 5000" in out
+    assert "--method weighted or ordinary" in out
 
 
 def test_where_only_the_whole_log_will_do_it_is_read_whole(
@@ -171,12 +171,12 @@ def test_a_long_log_is_compared_in_chunks(place, model, chunked, tmp_path, monke
     path = tmp_path / "run.csv"
     pa.csv.write_csv(pa.parquet.read_table(place / "run.parquet").slice(0, 8992), path)
     words = ["compare", model, path]
-    found, out = told_of([*words, "--report", tmp_path / "long.html"], tmp_path / "l", capsys)
+    result, out = told_of([*words, "--report", tmp_path / "long.html"], tmp_path / "l", capsys)
     assert re.search(r"long logs: all 8992 rows are read once, in [2-9] chunks", out)
     monkeypatch.setattr(regression, "LONG", 10**9)
     whole, out = told_of(words, tmp_path / "whole", capsys)
     assert "long logs" not in out
-    agree(counted(found), counted(whole))
+    agree(counted(result), counted(whole))
 
 
 def test_rows_of_a_comparison_are_no_more_than_fit_in_memory(
@@ -205,23 +205,23 @@ def test_a_long_log_is_looked_at_in_blocks(place, chunked, tmp_path, monkeypatch
     pa.parquet.write_table(pa.table(columns), path)
     words = ["log", path]
     drawn = ["--picture", tmp_path / "drawn.json"]
-    found, out = told_of([*words, *drawn], tmp_path / "long", capsys)
+    result, out = told_of([*words, *drawn], tmp_path / "long", capsys)
     assert f"long log: all {ROWS} rows are read for ranges" in out
     monkeypatch.setattr("modeler.api.log_maps.LONG", 10**9)
     whole, _ = told_of(words, tmp_path / "whole", capsys)
     assert (
-        found["clock"]["gaps"] == 2
-        and found["clock"]["largest_gap_start"] == whole["clock"]["largest_gap_start"] == 5.115
+        result["clock"]["gaps"] == 2
+        and result["clock"]["largest_gap_start"] == whole["clock"]["largest_gap_start"] == 5.115
     )
-    del found["notes"], whole["notes"]
-    del found["marks"], whole["marks"]  # of long logs only what their first look shows has a place
+    del result["notes"], whole["notes"]
+    del result["marks"], whole["marks"]  # of long logs only what their first look shows has a place
     assert all(any(c[what] for c in whole["channels"]) for what in ("limits", "missing_rows"))
-    noises = [one.pop("bands")["noise"] for one in (found, whole)]
+    noises = [one.pop("bands")["noise"] for one in (result, whole)]
     for some, every in zip(*noises, strict=True):  # of the windows
         assert some["deviation"] == pytest.approx(every["deviation"], rel=0.5)
-    limits = [[c.pop("limits") for c in one["channels"]] for one in (found, whole)]
+    limits = [[c.pop("limits") for c in one["channels"]] for one in (result, whole)]
     agree(flat(limits[0]), flat(limits[1]), rel=0.03)  # a few rows where a run ends with its block
-    agree(flat(found), flat(whole), rel=1e-6, least=1e-9)
+    agree(flat(result), flat(whole), rel=1e-6, least=1e-9)
 
 
 @with_cases(
@@ -232,8 +232,8 @@ def test_a_long_log_is_looked_at_in_blocks(place, chunked, tmp_path, monkeypatch
 )
 def test_a_command_that_needs_all_rows_refuses_too_many(words, place, model, capsys, monkeypatch):
     monkeypatch.setattr("modeler.regression.read.MOST_WHOLE", 5000)
-    told = complaint(capsys, *words.format(model=model, log=place / "run.parquet").split())
-    assert "run.parquet: got 9000 rows; expected at most 5000 where all are in memory" in told
+    out = complaint(capsys, *words.format(model=model, log=place / "run.parquet").split())
+    assert "run.parquet: got 9000 rows; expected at most 5000 where all are in memory" in out
 
 
 PEAK = """
@@ -256,11 +256,11 @@ def test_memory_does_not_grow_with_the_rows(place, model, tmp_path):
             for k in range(count):
                 time = pa.array(np.array(table["time"]) + k * (ROWS * 5e-3 + 1.0))
                 file.write_table(table.set_column(0, "time", time))
-        for command, own in peaks.items():
+        for command, item in peaks.items():
             read = [str(model)] if command == "compare" else []
             words = [sys.executable, "-c", PEAK, command, *read, str(path)]
             done = subprocess.run(words, capture_output=True, text=True, check=True)
-            own.append(int(done.stdout.split()[-1]))
+            item.append(int(done.stdout.split()[-1]))
     for command, (few, many) in peaks.items():
         assert many - few < 100 * 40 * ROWS, (command, few, many)  # whole: 180 and 390 a row
 

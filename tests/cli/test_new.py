@@ -45,9 +45,9 @@ def test_simulated_logs_of_a_template_are_fitted(template, tmp_path):
         emitted = api.generate(derivation)
         log = api.simulate(robot, duration=8.0)
         seen = api.observe(api.compile_model(emitted), [log])
-    found = api.fit(derivation, emitted, seen).fit
-    assert derivation.base.rank == len(found.parameters) > 10
-    assert found.relative_error < 0.02
+    result = api.fit(derivation, emitted, seen).fit
+    assert derivation.base.rank == len(result.parameters) > 10
+    assert result.relative_error < 0.02
 
 
 @pytest.mark.parametrize("convention", CONVENTIONS)

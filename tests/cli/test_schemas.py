@@ -74,7 +74,7 @@ def results(axis: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[str, A
     """What five commands write of a machine that has a spring its robot file lacks."""
     out = tmp_path_factory.mktemp("schemas")
     a, b, m, n = axis / "a.csv", axis / "b.csv", axis / "m.json", out / "n.json"
-    found: dict[str, Any] = {}
+    table: dict[str, Any] = {}
     for line in (
         "derive emps",
         f"fit emps {a} --out {out}/m.json",
@@ -84,8 +84,8 @@ def results(axis: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[str, A
     ):
         command, place = line.split()[0], out / "result.json"
         assert main([*line.split(), "--json", str(place)]) == 0
-        found[command] = json.loads(place.read_text())
-    return found
+        table[command] = json.loads(place.read_text())
+    return table
 
 
 def without(content: Any, fixed: Any) -> Iterator[tuple[str, Any]]:

@@ -100,8 +100,8 @@ def test_a_home_that_is_found_is_shown_and_said(workdir, capsys) -> None:
     note = "five-bar: [home] found: mode A at q11 = 2.2, q12 = 0.9; 2 assembly modes"
     assert note in out and result["note"].startswith(note)
     assert note in (workdir / "b.html").read_text()
-    found = complete_home(read_robot("bare.toml")).robot.home
-    assert {name: result["home"][f"q{name}"] for name in found} == pytest.approx(found, abs=1e-5)
+    actual = complete_home(read_robot("bare.toml")).robot.home
+    assert {name: result["home"][f"q{name}"] for name in actual} == pytest.approx(actual, abs=1e-5)
     assert result["is_closed"] and result["loose_joints"] == []
     out = answer(capsys, "show", "five-bar", "--out", "b.html", "--json", "b.json")
     assert "found" not in out

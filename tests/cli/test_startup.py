@@ -62,8 +62,8 @@ SHORT = [
 
 
 def test_what_answers_at_once_loads_nothing_long() -> None:
-    found = loaded(*(words for words, _ in SHORT))
-    for (words, status), (ended, said, packages) in zip(SHORT, found, strict=True):
+    result = loaded(*(words for words, _ in SHORT))
+    for (words, status), (ended, said, packages) in zip(SHORT, result, strict=True):
         assert ended == status and said == (status == 0), words
         assert not packages & LONG, words
 
@@ -96,8 +96,8 @@ LONGER = [
 )
 def test_a_command_loads_nothing_long_that_it_has_no_use_for(two_link, tmp_path, commands) -> None:
     lines = (words.format(two_link, out=tmp_path).split() for words, _ in commands)
-    found = loaded(*map(tuple, lines))
-    for (words, unused), (status, _, packages) in zip(commands, found, strict=True):
+    result = loaded(*map(tuple, lines))
+    for (words, unused), (status, _, packages) in zip(commands, result, strict=True):
         assert status == 0 and not packages & unused, words
         if words == "derive scara":  # long packages would be noticed
             assert packages >= {"sympy", "numpy", "flint"}

@@ -27,12 +27,12 @@ PARSERS = parser.collect_command_parsers(build_parser())
 
 
 def required(subparser: argparse.ArgumentParser) -> list[str]:
-    found = []
+    values = []
     for action in subparser._actions:
         out = action.dest in getattr(subparser, "required", {})  # unless another is given
         if action.option_strings and (action.required or out):
-            found += [action.option_strings[-1], "out.toml" if "TOML" in str(action) else "out"]
-    return found
+            values += [action.option_strings[-1], "out.toml" if "TOML" in str(action) else "out"]
+    return values
 
 
 WITH_VALUE = [
@@ -44,8 +44,8 @@ WITH_VALUE = [
 
 
 def read(words: list[str]) -> dict[str, object]:
-    found = vars(parser.parse_words(words)[0])
-    return {name: value for name, value in found.items() if name != "load"}
+    result = vars(parser.parse_words(words)[0])
+    return {name: value for name, value in result.items() if name != "load"}
 
 
 @pytest.mark.parametrize(("name", "option"), WITH_VALUE)
@@ -71,9 +71,9 @@ def test_the_order_does_not_matter(name: str, option: str) -> None:
 
 
 def test_a_list_is_given_by_repeating_the_option(capsys) -> None:
-    found, _ = parser.parse_words(shlex.split("diagnose --holdout b m.json a --holdout=c e"))
-    assert (found.model, found.logs, found.holdout) == ("m.json", ["a", "e"], ["b", "c"])
-    assert "holdout" in found.typed and "logs" not in found.typed
+    result, _ = parser.parse_words(shlex.split("diagnose --holdout b m.json a --holdout=c e"))
+    assert (result.model, result.logs, result.holdout) == ("m.json", ["a", "e"], ["b", "c"])
+    assert "holdout" in result.typed and "logs" not in result.typed
     cut = parser.parse_words(shlex.split("fit emps a --meth robust --out m"))[0]
     assert cut.method == "robust" and cut.typed == {"method", "out"}
 

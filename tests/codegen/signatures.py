@@ -9,8 +9,8 @@ from modeler.derivation.derive import derive_model
 from modeler.robot.read import read_robot
 
 if __name__ == "__main__":
-    found = {}
+    table = {}
     for name in sys.argv[1:]:
         model = derive_model(read_robot(name))
-        found[name] = emit(model, derive_base_parameters(model)).spec.compute_signature()
-    print(json.dumps(found))
+        table[name] = emit(model, derive_base_parameters(model)).spec.compute_signature()
+    print(json.dumps(table))

@@ -104,9 +104,9 @@ class Program:
         while self._next().startswith("var"):
             self._declarations(unit)
         names = [n for n, k in unit.kinds.items() if k in ("var_input", "var_in_out")]
-        given = [f"{n}={unit.initial[n]!r}" if n in unit.initial else n for n in names]
-        given.sort(key=lambda word: "=" in word)
-        unit.lines.append(f"def {unit.name}({', '.join(given)}):")
+        inputs = [f"{n}={unit.initial[n]!r}" if n in unit.initial else n for n in names]
+        inputs.sort(key=lambda word: "=" in word)
+        unit.lines.append(f"def {unit.name}({', '.join(inputs)}):")
         unit.lines += [
             f"    {n} = {v!r}" for n, v in unit.initial.items() if unit.kinds[n] == "constant"
         ]
@@ -146,15 +146,15 @@ class Program:
 
     def _numbers(self, length: int | None) -> float | list[float]:
         """The initial value of a number, or of an array of that length."""
-        found, brackets = list[float](), length is not None and self._take("[")
+        values, brackets = list[float](), length is not None and self._take("[")
         for k in range(length or 1):
             if k:
                 self._take(",")
             sign = -1.0 if self._next() == "-" and self._take() else 1.0
-            found.append(sign * float(self._take()))
+            values.append(sign * float(self._take()))
         if brackets:
             self._take("]")
-        return found if brackets else found[0]
+        return values if brackets else values[0]
 
     def _statements(self, unit: Unit, indent: str, *ends: str) -> None:
         while self._next() not in ends:
@@ -222,14 +222,14 @@ class Program:
         name = self._name()
         if self._next() == "(":
             self._take()
-            given = [self._sum(unit)]
+            known = [self._sum(unit)]
             while self._next() == ",":
                 self._take()
-                given.append(self._sum(unit))
+                known.append(self._sum(unit))
             self._take(")")
             if name not in _STANDARD and name not in self.units:
                 raise TextError(f"{unit.name} calls {name}")
-            return f"{name}({', '.join(given)})"
+            return f"{name}({', '.join(known)})"
         if name not in unit.kinds:
             raise TextError(f"{unit.name} reads {name}, which is not declared")
         return name + self._index(unit, name)
@@ -241,12 +241,12 @@ def _place(at: float, length: int) -> int:
 
 
 def _tokens(text: str) -> list[str]:
-    found, at = [], 0
+    values, at = [], 0
     while at < len(text):
         match = _TOKENS.match(text, at)
         if match is None:
             raise TextError(f"at {text[at : at + 30]!r}")
         at = match.end()
         if match.lastgroup:
-            found.append(match[0])
-    return found
+            values.append(match[0])
+    return values

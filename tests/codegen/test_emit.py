@@ -130,9 +130,9 @@ def test_the_text_is_the_same_each_time_and_names_no_place_of_this_machine(name)
     emitted = module(name).emitted
     here = [str(ROOT), str(Path.home()), tempfile.gettempdir(), platform.node()]
     versions = [modeler.__version__, platform.python_version(), sympy.__version__, np.__version__]
-    own = (f"{emitted.spec.prefix}_generator.h", "manifest.json")  # these say what wrote them
+    items = (f"{emitted.spec.prefix}_generator.h", "manifest.json")  # these say what wrote them
     for file, text in emitted.files.items():
-        for word in (*here, *(versions[1:] if file in own else versions)):
+        for word in (*here, *(versions[1:] if file in items else versions)):
             assert not re.search(rf"(?<![\w.]){re.escape(word)}(?![\w.])", text), (file, word)
         assert not re.search(r"\b(19|20)\d\d-\d\d?-\d\d?\b|\b\d\d:\d\d\b", text), file
         assert "\r" not in text and text.endswith("\n"), file

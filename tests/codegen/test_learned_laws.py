@@ -58,13 +58,13 @@ def compiled(precision: str) -> CompiledModel:
 def motion(samples: int = 40) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Within the tables, at their knots and far beyond their ends."""
     rng = np.random.default_rng()
-    found = rng.uniform(-2.5, 2.5, (3, samples, 3))
+    result = rng.uniform(-2.5, 2.5, (3, samples, 3))
     for k, law in enumerate(law for _, law in LAWS.values()):
         knots = np.linspace(law.low[0], law.high[0], law.cells[0] + 1)
-        found[0, : len(knots), k] = knots
-        found[1, : len(knots), k] = -knots
-    found[:, -9:] *= 1e4
-    return tuple(found)
+        result[0, : len(knots), k] = knots
+        result[1, : len(knots), k] = -knots
+    result[:, -9:] *= 1e4
+    return tuple(result)
 
 
 def expected(joint: str, motion, law_of=scipy_value) -> np.ndarray:

@@ -39,11 +39,11 @@ def test_no_emitted_or_runtime_file_breaks_the_three_rules(name, precision, tmp_
     assert {f"{emitted.spec.prefix}_control.c", "programs/self_check.c"} < set(names)
     if name == "five-bar":  # its regressors are of one kind, its programs those of the other
         names = [n for n in names if "regressor" not in n and not n.startswith("programs/")]
-    found = [v for file in names for v in violations(tmp_path, file)]
+    values = [v for file in names for v in violations(tmp_path, file)]
     for word in _OTHERWISE:
-        found += violations(tmp_path, f"{emitted.spec.prefix}.c", word)
-        found += violations(tmp_path, "modeler_batch.c", word)
-    assert not found, sorted(set(found))
+        values += violations(tmp_path, f"{emitted.spec.prefix}.c", word)
+        values += violations(tmp_path, "modeler_batch.c", word)
+    assert not values, sorted(set(values))
 
 
 def test_the_wrapper_of_the_fmu_and_the_runtime_of_fits_keep_them_too(tmp_path) -> None:

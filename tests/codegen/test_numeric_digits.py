@@ -54,6 +54,6 @@ def test_relations_in_numbers_keep_the_digits_of_a_double(name: str) -> None:
     rest, unit = torques(0.0 * qdd), np.eye(n)
     M = np.stack([torques(0.0 * qdd + unit[j]) - rest for j in range(n)], axis=2)
     right = np.linalg.solve(M, (tau - rest)[:, :, None])[:, :, 0]
-    found = c.evaluate("forward_dynamics", q=q, qd=qd, tau=tau, beta=beta)
-    assert np.abs(found - right).max() <= 1e-12 * np.abs(right).max()
-    assert np.abs(found - qdd).max() <= 1e-11 * np.abs(qdd).max()
+    actual = c.evaluate("forward_dynamics", q=q, qd=qd, tau=tau, beta=beta)
+    assert np.abs(actual - right).max() <= 1e-12 * np.abs(right).max()
+    assert np.abs(actual - qdd).max() <= 1e-11 * np.abs(qdd).max()

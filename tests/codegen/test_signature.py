@@ -86,10 +86,10 @@ def test_the_signature_covers_every_letter_of_the_c(name):
 
 def other_machine(core: str, seed: str) -> dict[str, str]:
     """The environment of a processor without this one's newer instructions."""
-    found = np.show_config(mode="dicts")["SIMD Extensions"]["found"]
+    actual = np.show_config(mode="dicts")["SIMD Extensions"]["found"]
     tunables = "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F,-AVX2_Usable,-FMA_Usable"
     return {
-        "NPY_DISABLE_CPU_FEATURES": " ".join(found),
+        "NPY_DISABLE_CPU_FEATURES": " ".join(actual),
         "OPENBLAS_CORETYPE": core,
         "GLIBC_TUNABLES": tunables,
         "PYTHONHASHSEED": seed,

@@ -134,8 +134,8 @@ def test_robots_of_both_precisions_live_in_one_program(tmp_path):
     libraries = []
     for made in (wrist, arm, emps):
         folder = built(made, tmp_path / made.spec.prefix, "all", "batch")
-        own = [folder / f"lib{made.spec.prefix}_{kind}.a" for kind in ("batch", "model")]
-        libraries += [*own, f"-I{folder}"]
+        items = [folder / f"lib{made.spec.prefix}_{kind}.a" for kind in ("batch", "model")]
+        libraries += [*items, f"-I{folder}"]
     source = Path(__file__).with_name("programs") / "both_precisions.c"
     run("gcc", "-o", "main", source, *libraries, "-lm", where=tmp_path)
     assert run(tmp_path / "main", where=tmp_path).split() == ["2.000", "2.000", "2.000"]

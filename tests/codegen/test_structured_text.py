@@ -43,18 +43,18 @@ def distance(program: Program, functions: Functions, role: str, state, **widths:
 def test_the_text_read_back_gives_what_the_c_gives(name: str) -> None:
     emitted = made_of(name, fitted=False)
     program, functions = Program(emitted.files[f"{emitted.spec.prefix}.st"]), Functions(emitted)
-    given = motion(name, samples=4, seed=int(np.random.default_rng().integers(1000)))
-    given["beta"] = np.random.default_rng().normal(size=len(emitted.spec.base))
-    given["chi"] = np.random.default_rng().normal(size=len(emitted.spec.standard))
+    values = motion(name, samples=4, seed=int(np.random.default_rng().integers(1000)))
+    values["beta"] = np.random.default_rng().normal(size=len(emitted.spec.base))
+    values["chi"] = np.random.default_rng().normal(size=len(emitted.spec.standard))
     for role in (*ROLES, "base_parameters"):
-        assert distance(program, functions, role, given) <= 1e-12, role
+        assert distance(program, functions, role, values) <= 1e-12, role
 
 
 @pytest.mark.parametrize("name", [pytest.param("two-link", marks=pytest.mark.rotating), "slow-arm"])
 def test_values_and_widths_are_those_of_the_fitted_c(name: str) -> None:
     emitted = made_of(name, fitted=True)
     text = emitted.files[f"{emitted.spec.prefix}.st"]
-    program, given = Program(text), motion(name, samples=3)
+    program, inputs = Program(text), motion(name, samples=3)
     assert "Values of a test." in text and emitted.spec.fitted.signature in text
     for width in (0.0, 0.3):
         functions = Functions(emitted, **({"COULOMB_WIDTH": width} if width else {}))
@@ -62,7 +62,7 @@ def test_values_and_widths_are_those_of_the_fitted_c(name: str) -> None:
             unit = program.units[make_identifier(f"{emitted.spec.prefix}_{role}")]
             widths = {n: width for n, kind in unit.kinds.items() if kind == "var_input"}
             assert bool(widths) == (role in ("fitted_friction", "fitted_inverse_dynamics"))
-            assert distance(program, functions, role, given, **widths) <= 1e-12, role
+            assert distance(program, functions, role, inputs, **widths) <= 1e-12, role
 
 
 def test_nothing_is_kept_between_calls_and_each_function_is_declared_once() -> None:

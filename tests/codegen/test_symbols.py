@@ -72,14 +72,14 @@ def test_a_length_can_be_replaced():
     other = emitted_of(derive_model(parse_robot_text(text, "wrist with a longer link")))
     q, qd, qdd = states(3, 5)
     changed = loaded(with_macro(emitted, "WRIST_GEO_bl1", 0.37))
-    derived, given = (loaded(m) for m in (other, emitted))
+    derived, known = (loaded(m) for m in (other, emitted))
     np.testing.assert_allclose(
         changed.base_regressor(q, qd, qdd), derived.base_regressor(q, qd, qdd)
     )
     chi = np.linspace(-1, 1, len(emitted.spec.standard))
     np.testing.assert_allclose(changed.base_parameters(chi), derived.base_parameters(chi))
     np.testing.assert_allclose(changed.forward_kinematics(q), derived.forward_kinematics(q))
-    assert not np.allclose(changed.base_regressor(q, qd, qdd), given.base_regressor(q, qd, qdd))
+    assert not np.allclose(changed.base_regressor(q, qd, qdd), known.base_regressor(q, qd, qdd))
 
 
 def torque_with(cc, folder, define) -> subprocess.CompletedProcess:

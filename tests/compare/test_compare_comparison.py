@@ -36,9 +36,9 @@ def by_hand() -> Prediction:
 
 def test_numbers_of_a_case_worked_by_hand() -> None:
     # residual 0, 3, masked, -4: norm 5; torque 3, 4, 0: norm 5, mean 7/3, spread 26/3
-    found = compare(by_hand())
-    joint = found.joints[0]
-    assert found.samples == joint.samples == 3
+    result = compare(by_hand())
+    joint = result.joints[0]
+    assert result.samples == joint.samples == 3
     assert joint.relative_error == pytest.approx(1.0)
     assert joint.rms == pytest.approx(5.0 / np.sqrt(3.0))
     assert joint.bias == pytest.approx(-1.0 / 3.0)
@@ -55,14 +55,14 @@ def test_numbers_of_a_case_worked_by_hand() -> None:
 
 def test_whole_is_the_stacked_joints() -> None:
     p = prediction(rows=1500)
-    found = compare(p)
+    result = compare(p)
     e = p.measured - p.predicted
-    assert found.relative_error == pytest.approx(np.linalg.norm(e) / np.linalg.norm(p.measured))
-    energy = sum(item.rms**2 * item.samples for item in found.joints)
+    assert result.relative_error == pytest.approx(np.linalg.norm(e) / np.linalg.norm(p.measured))
+    energy = sum(item.rms**2 * item.samples for item in result.joints)
     assert energy == pytest.approx(np.sum(e**2))
-    told = found.to_json()
-    assert told["samples"] == 1500 and told["relative_error"] == found.relative_error
-    assert [told["joints"][n]["max"] for n in "123"] == [j.largest.value for j in found.joints]
+    data = result.to_json()
+    assert data["samples"] == 1500 and data["relative_error"] == result.relative_error
+    assert [data["joints"][n]["max"] for n in "123"] == [j.largest.value for j in result.joints]
 
 
 def test_summary_has_units_and_every_joint() -> None:
@@ -82,8 +82,8 @@ def test_masked_rows_do_not_count() -> None:
     whole, part = compare(p), compare(dataclasses.replace(p, measured=spoilt, used=used))
     assert part.joints[1].samples == 750
     assert part.joints[0].rms == whole.joints[0].rms
-    kept = (p.measured - p.predicted)[1::2, 1]
-    assert part.joints[1].rms == pytest.approx(np.sqrt(np.mean(kept**2)))
+    subset = (p.measured - p.predicted)[1::2, 1]
+    assert part.joints[1].rms == pytest.approx(np.sqrt(np.mean(subset**2)))
 
 
 def test_joints_that_cannot_be_judged_are_named() -> None:
@@ -92,21 +92,21 @@ def test_joints_that_cannot_be_judged_are_named() -> None:
     used[:, 0] = False
     measured = p.measured.copy()
     measured[:, 2] = 0.0
-    found = compare(dataclasses.replace(p, used=used, measured=measured))
-    assert [item.joint.name for item in found.joints] == ["2"]
-    assert dict(found.excluded_joints)["1"] == "no sample counts (all masked)"
+    result = compare(dataclasses.replace(p, used=used, measured=measured))
+    assert [item.joint.name for item in result.joints] == ["2"]
+    assert dict(result.excluded_joints)["1"] == "no sample counts (all masked)"
     assert write_headline(compare(dataclasses.replace(p, used=used))).endswith("(joint 2).")
-    assert "Joint 1 is not judged: no sample counts (all masked)." in write_verdict(found)
+    assert "Joint 1 is not judged: no sample counts (all masked)." in write_verdict(result)
     nothing = compare(dataclasses.replace(p, measured=np.zeros_like(measured)))
     assert write_headline(nothing) == "three: no joint could be judged."
-    assert "measured torque is zero" in found.summary()
+    assert "measured torque is zero" in result.summary()
 
 
 def test_without_any_torque_the_error_is_undefined_not_nan() -> None:
     p = by_hand()
-    found = compare(dataclasses.replace(p, measured=np.zeros((4, 1))))
-    assert found.to_json()["relative_error"] is None
-    assert "nan" not in found.summary() and found.summary().splitlines()[-1].split()[1] == "-"
+    result = compare(dataclasses.replace(p, measured=np.zeros((4, 1))))
+    assert result.to_json()["relative_error"] is None
+    assert "nan" not in result.summary() and result.summary().splitlines()[-1].split()[1] == "-"
     constant = compare(dataclasses.replace(p, measured=np.ones((4, 1))))
     assert constant.to_json()["joints"]["1"]["r2"] is None
     assert "nan" not in constant.summary()
@@ -114,16 +114,16 @@ def test_without_any_torque_the_error_is_undefined_not_nan() -> None:
 
 def test_a_burst_is_found_where_it_is() -> None:
     # 0.2 s wide, around 41 s, in the second log
-    found = compare(prediction(lambda q, qd, qdd, tau, t: 20.0 * (np.abs(t - 41.0) < 0.1)))
-    worst = found.joints[1].worst
+    result = compare(prediction(lambda q, qd, qdd, tau, t: 20.0 * (np.abs(t - 41.0) < 0.1)))
+    worst = result.joints[1].worst
     assert worst.log == "two.parquet"
-    assert "of the squared residual in 0.833 % of the time" in write_joint_verdict(found.joints[1])
+    assert "of the squared residual in 0.833 % of the time" in write_joint_verdict(result.joints[1])
     assert worst.start <= 40.91 and worst.end >= 41.09
     assert worst.end - worst.start <= WINDOW
     burst = 19 * 400.0
     assert worst.energy_share == pytest.approx(burst / (burst + 6000 * 0.25), abs=0.05)
     assert worst.time_share == pytest.approx(WINDOW / PERIOD / 6000)
-    assert found.joints[1].largest.time == pytest.approx(41.0, abs=0.1)
+    assert result.joints[1].largest.time == pytest.approx(41.0, abs=0.1)
 
 
 def test_worst_window_stays_inside_a_segment() -> None:
@@ -134,8 +134,8 @@ def test_worst_window_stays_inside_a_segment() -> None:
 
 
 def test_regions_split_the_velocity() -> None:
-    found = compare(prediction(lambda q, qd, qdd, tau, t: 5.0 * (qd > 0.4 * np.abs(qd).max())))
-    regions = found.joints[1].regions
+    result = compare(prediction(lambda q, qd, qdd, tau, t: 5.0 * (qd > 0.4 * np.abs(qd).max())))
+    regions = result.joints[1].regions
     assert tuple(region.name for region in regions) == REGIONS
     assert sum(region.samples for region in regions) == 6000
     assert sum(region.energy_share for region in regions) == pytest.approx(1.0)
@@ -177,16 +177,16 @@ def test_equally_good_models_are_hardly_ever_told_apart(models, seeds, most) -> 
 
 
 def test_a_better_model_is_found_on_every_joint() -> None:
-    found = judged(model(1, 1.0), model(2, 0.7), model(3, 1.2))
-    assert [item.best for item in found.joints] == [1, 1, 1]
-    assert found.find_best_joints(1) == ["1", "2", "3"] and found.find_best_joints(0) == []
-    for j, item in enumerate(found.joints):
-        left = [p.measured[:, j] - p.predicted[:, j] for p in found.predictions]
+    result = judged(model(1, 1.0), model(2, 0.7), model(3, 1.2))
+    assert [item.best for item in result.joints] == [1, 1, 1]
+    assert result.find_best_joints(1) == ["1", "2", "3"] and result.find_best_joints(0) == []
+    for j, item in enumerate(result.joints):
+        left = [p.measured[:, j] - p.predicted[:, j] for p in result.predictions]
         for k, e in enumerate(left):
             assert item.rms[k] == pytest.approx(np.sqrt(np.mean(e**2)))
             size = np.linalg.norm(truth().measured[:, j])
             assert item.errors[k] == pytest.approx(np.linalg.norm(e) / size)
-    plain = found.to_json()["models"]
+    plain = result.to_json()["models"]
     assert [entry["model"] for entry in plain] == ["0.json", "1.json", "2.json"]
     assert plain[1]["best_joints"] == ["1", "2", "3"]
     assert plain[1]["joints"]["2"]["is_best"] and not plain[0]["joints"]["2"]["is_best"]
@@ -196,8 +196,8 @@ def test_one_joint_alone_is_named() -> None:
     one = model(5, 1.0)
     predicted = one.predicted.copy()
     predicted[:, 2] = truth().predicted[:, 2] + 0.5 * coloured(6, 1.0)[:, 2]
-    found = judged(one, dataclasses.replace(one, predicted=predicted))
-    assert [item.best for item in found.joints] == [None, None, 1]
+    result = judged(one, dataclasses.replace(one, predicted=predicted))
+    assert [item.best for item in result.joints] == [None, None, 1]
 
 
 def test_a_burst_is_no_proof() -> None:
@@ -205,9 +205,9 @@ def test_a_burst_is_no_proof() -> None:
     one = model(7, 1.0)
     predicted = one.predicted.copy()
     predicted[500:600] += 6.0
-    found = judged(one, dataclasses.replace(one, predicted=predicted))
-    assert all(item.errors[1] > 1.3 * item.errors[0] for item in found.joints)
-    assert all(item.best is None for item in found.joints)
+    result = judged(one, dataclasses.replace(one, predicted=predicted))
+    assert all(item.errors[1] > 1.3 * item.errors[0] for item in result.joints)
+    assert all(item.best is None for item in result.joints)
 
 
 def test_one_model_is_no_contest() -> None:

@@ -42,8 +42,8 @@ class Machine:
 def waves(time: np.ndarray, terms: list[list[tuple[float, float, float]]]) -> tuple:
     """Time, q, qd, qdd of sums of a sin(w t + p), by joint."""
     q, qd, qdd = (np.zeros((time.size, len(terms))) for _ in range(3))
-    for j, own in enumerate(terms):
-        for a, w, p in own:
+    for j, item in enumerate(terms):
+        for a, w, p in item:
             q[:, j] += a * np.sin(w * time + p)
             qd[:, j] += a * w * np.cos(w * time + p)
             qdd[:, j] -= a * w**2 * np.sin(w * time + p)
@@ -101,9 +101,9 @@ def test_shares_from_several_logs(machine: Machine) -> None:
         machine.log("two.csv", later, 5, added=extra[333:]),
         machine.log("three.csv", motion, 6, added=extra),
     ]
-    found = machine.compared(*logs)
-    check_shares(found, "logs", extra[:, 1])
-    assert [log.log for log in found.logs] == ["one.csv", "two.csv", "three.csv"]
+    result = machine.compared(*logs)
+    check_shares(result, "logs", extra[:, 1])
+    assert [log.log for log in result.logs] == ["one.csv", "two.csv", "three.csv"]
 
 
 def test_the_same_log_twice_is_no_repetition(machine: Machine) -> None:
@@ -140,14 +140,14 @@ def test_temperature_and_travel_come_from_the_log(machine: Machine) -> None:
     extra = np.zeros_like(motion[1])
     extra[:, 1] = 0.2 * (heat - 30.0) * np.sign(motion[2][:, 1])
     log = machine.log("a.csv", motion, 9, added=extra, extra={"temperature2": heat})
-    found = machine.compared(log)
-    p = found.prediction
+    result = machine.compared(log)
+    p = result.prediction
     assert p.temperature is not None and p.travel is not None
     np.testing.assert_allclose(p.temperature[:, 1], 25.0 + 0.25 * p.time, atol=1e-6)
     assert np.isnan(p.temperature[:, 0]).all()
     exact = np.interp(p.time, motion[0], compute_travel_since_reversal(motion[1][:, 1]))
     assert np.quantile(np.abs(p.travel[:, 1] - exact), 0.95) < 0.01
-    shares = [item.structure for item in found.joints]
+    shares = [item.structure for item in result.joints]
     assert shares[0] is not None and np.isnan(shares[0].get_share("temperature"))
     assert shares[1] is not None and shares[1].get_share("temperature") > 0.6
 

@@ -71,13 +71,14 @@ def check(p: Prediction, method: str, known: float, tolerance: float) -> None:
     repeated = float(np.mean((known * np.sin(p.q @ WAVES)) ** 2))
     for item in compare(p).joints:
         total = float(np.var(p.measured[:, item.index]))
-        found = item.shares
-        assert found is not None and found.method == method
-        assert found.explained_share + found.systematic_share + found.noise_share == pytest.approx(
-            1.0
+        result = item.shares
+        assert result is not None and result.method == method
+        assert (
+            result.explained_share + result.systematic_share + result.noise_share
+            == pytest.approx(1.0)
         )
-        assert found.systematic_share == pytest.approx(repeated / total, abs=tolerance / total)
-        assert found.noise_share == pytest.approx(NOISE**2 / total, abs=tolerance / total)
+        assert result.systematic_share == pytest.approx(repeated / total, abs=tolerance / total)
+        assert result.noise_share == pytest.approx(NOISE**2 / total, abs=tolerance / total)
 
 
 @pytest.mark.parametrize(
@@ -91,9 +92,9 @@ def test_laps_in_one_log(laps: int, period: float, start: float, known: float, s
     """
     time = np.arange(0.0, laps * period, STEP)
     p = measured([(time + start, motion(time, period))], known, seed)
-    (found,) = find_repetitions(p)
-    assert found.kind == "laps"
-    assert found.periods[0] == pytest.approx(period, abs=2e-3 if laps == 5 else 2e-4)
+    (matches,) = find_repetitions(p)
+    assert matches.kind == "laps"
+    assert matches.periods[0] == pytest.approx(period, abs=2e-3 if laps == 5 else 2e-4)
     check(p, "laps", known, 0.03)
 
 
@@ -104,9 +105,9 @@ def test_several_logs_of_one_motion(known: float) -> None:
     q = wandering(time)
     parts = [(time, q), (time[90:], q[90:]), (time + 100.37, q)]
     p = measured(parts, known, 3)
-    (found,) = find_repetitions(p)
-    assert found.kind == "logs"
-    shifts = {(each.run, each.other): each.shift for each in found.partners}
+    (matches,) = find_repetitions(p)
+    assert matches.kind == "logs"
+    shifts = {(each.run, each.other): each.shift for each in matches.partners}
     assert shifts[0, 1] == pytest.approx(0.0, abs=1e-3)
     assert shifts[1, 2] == pytest.approx(100.37, abs=1e-3)
     check(p, "logs", known, 0.03)
@@ -127,12 +128,12 @@ def test_logs_of_other_motion_do_not_repeat() -> None:
 def test_without_repetition_smooth_functions_tell(defect: Defect, tolerance: float) -> None:
     """0.5 qd is missing, or an offset: their mean squares are known."""
     p = prediction(defect, seed=3)
-    found = compare(p).joints[1].shares
-    assert found is not None and found.method == "smooth" and found.sigma is None
+    result = compare(p).joints[1].shares
+    assert result is not None and result.method == "smooth" and result.sigma is None
     total = float(np.var(p.measured[:, 1]))
     known = float(np.mean(defect(*(x[:, 1] for x in (p.q, p.qd, p.qdd, p.predicted)), p.time) ** 2))
-    assert found.systematic_share == pytest.approx(known / total, rel=tolerance)
-    assert found.noise_share == pytest.approx(0.25 / total, rel=0.15)
+    assert result.systematic_share == pytest.approx(known / total, rel=tolerance)
+    assert result.noise_share == pytest.approx(0.25 / total, rel=0.15)
 
 
 def test_what_returns_is_told_and_noise_is_not() -> None:
@@ -152,15 +153,15 @@ def test_what_returns_is_told_and_noise_is_not() -> None:
 def test_standard_error_of_the_repeatable_share() -> None:
     """Its scatter over seeds is what it says."""
     time = np.arange(0.0, 3 * PERIOD, STEP)
-    found = [
+    values = [
         compare(judged_alone(measured([(time, motion(time, PERIOD))], KNOWN, seed), 0))
         .joints[0]
         .shares
         for seed in range(12)
     ]
-    scatter = np.std([each.systematic_share for each in found if each is not None])
-    told = np.mean([each.sigma for each in found if each is not None and each.sigma is not None])
-    assert 0.5 < told / scatter < 2.5  # the known part's own products count as scatter too
+    scatter = np.std([each.systematic_share for each in values if each is not None])
+    value = np.mean([each.sigma for each in values if each is not None and each.sigma is not None])
+    assert 0.5 < value / scatter < 2.5  # the known part's own products count as scatter too
 
 
 def test_masked_rows_and_few_rows() -> None:
@@ -180,8 +181,8 @@ def test_a_held_joint_may_wobble() -> None:
     time = np.arange(0.0, 5 * PERIOD, STEP)
     q = motion(time, PERIOD)
     q[:, 1] = 1e-4 * np.random.default_rng(0).normal(size=time.size)
-    (found,) = find_repetitions(measured([(time, q)], 0.0, 1))
-    assert found.periods[0] == pytest.approx(PERIOD, abs=0.002)
+    (matches,) = find_repetitions(measured([(time, q)], 0.0, 1))
+    assert matches.periods[0] == pytest.approx(PERIOD, abs=0.002)
 
 
 def test_no_lap_in_a_motion_that_wanders() -> None:
@@ -225,9 +226,9 @@ def test_a_missing_effect_is_no_wrong_scale() -> None:
 def test_scale_by_hand() -> None:
     """m = -2 p exactly, and each block from the other four; nothing comes of nothing."""
     p = np.random.default_rng(1).normal(size=200)
-    found = estimate_scale(-2.0 * p, p)
-    assert found is not None and found.has_opposite_sign and found.has_wrong_factor
-    assert (found.factor, found.variance_reduction) == pytest.approx((-2.0, 1.0))
+    fit = estimate_scale(-2.0 * p, p)
+    assert fit is not None and fit.has_opposite_sign and fit.has_wrong_factor
+    assert (fit.factor, fit.variance_reduction) == pytest.approx((-2.0, 1.0))
     assert estimate_scale(p, np.zeros(200)) is None and estimate_scale(p[:5], p[:5]) is None
 
 
@@ -236,13 +237,13 @@ def test_a_factor_is_stated_only_where_applying_it_lowers_the_residual(seed: int
     """Measured torques that are another slope and a constant of the predicted ones."""
     rng = np.random.default_rng(seed)
     p = prediction(rows=1500)
-    own = p.predicted[:, 1]
-    slope, shift = rng.uniform(0.6, 1.6), rng.uniform(-3.0, 3.0) * own.std()
+    actual = p.predicted[:, 1]
+    slope, shift = rng.uniform(0.6, 1.6), rng.uniform(-3.0, 3.0) * actual.std()
     measured = p.measured.copy()
-    measured[:, 1] = slope * own + shift
+    measured[:, 1] = slope * actual + shift
     item = compare(dataclasses.replace(p, measured=measured)).joints[1]
     _, stated, tail = write_joint_verdict(item).partition("measured is ")
     if stated:
         factor = float(tail.split()[0])
-        left = np.linalg.norm(measured[:, 1] - factor * own)
-        assert left < 0.6 * np.linalg.norm(measured[:, 1] - own), (slope, shift, factor)
+        left = np.linalg.norm(measured[:, 1] - factor * actual)
+        assert left < 0.6 * np.linalg.norm(measured[:, 1] - actual), (slope, shift, factor)

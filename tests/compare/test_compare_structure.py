@@ -44,12 +44,12 @@ def test_a_missing_effect_is_named_and_measured(coordinate: str, defect: Defect)
     (item,) = compare(judged_alone(p)).joints
     missing = defect(p.q[:, 1], p.qd[:, 1], p.qdd[:, 1], p.predicted[:, 1], p.time)
     share = np.var(missing) / (np.var(missing) + NOISE**2)  # noise is independent of motion
-    found = verdict.find_best_pattern(item)
-    assert found is not None
-    assert found[0].id == coordinate
-    assert found[1] == pytest.approx(share, abs=0.08)
+    matches = verdict.find_best_pattern(item)
+    assert matches is not None
+    assert matches[0].id == coordinate
+    assert matches[1] == pytest.approx(share, abs=0.08)
     assert verdict.classify_residual(item) == "pattern"
-    assert "repeatable function of " + found[0].phrase in verdict.write_joint_verdict(item)
+    assert "repeatable function of " + matches[0].phrase in verdict.write_joint_verdict(item)
 
 
 def test_white_noise_has_no_structure() -> None:
@@ -131,8 +131,8 @@ def test_nothing_is_correlated_across_segments() -> None:
 
 def test_long_logs_are_looked_at_sparsely_and_alike() -> None:
     item = second_joint(lambda q, qd, qdd, tau, t: 0.5 * qd, rows=60_000)
-    found = verdict.find_best_pattern(item)
-    assert found is not None and found[0].id == "velocity"
+    matches = verdict.find_best_pattern(item)
+    assert matches is not None and matches[0].id == "velocity"
 
 
 @with_cases(
@@ -183,16 +183,16 @@ def test_travel_ignores_the_noise_of_the_encoder() -> None:
     t = np.linspace(0.0, 4 * np.pi, 200_001)
     noise = 1e-4 * np.random.default_rng(0).uniform(-1.0, 1.0, t.size)
     clean = compute_travel_since_reversal(np.sin(t))
-    found = compute_travel_since_reversal(np.sin(t) + noise, 1e-3)
-    assert np.quantile(np.abs(found - clean), 0.95) < 1e-3
+    actual = compute_travel_since_reversal(np.sin(t) + noise, 1e-3)
+    assert np.quantile(np.abs(actual - clean), 0.95) < 1e-3
     assert (
         compute_travel_since_reversal(np.sin(t) + noise).mean() < 0.01
     )  # every wiggle would be a turn
 
 
 def test_travel_by_hand() -> None:
-    found = compute_travel_since_reversal(np.array([0.0, 2.0, 3.0, 3.0, 1.0, 0.0, 0.0, 4.0]))
-    np.testing.assert_array_equal(found, [0.0, 2.0, 3.0, 0.0, 2.0, 3.0, 0.0, 4.0])
+    actual = compute_travel_since_reversal(np.array([0.0, 2.0, 3.0, 3.0, 1.0, 0.0, 0.0, 4.0]))
+    np.testing.assert_array_equal(actual, [0.0, 2.0, 3.0, 0.0, 2.0, 3.0, 0.0, 4.0])
     np.testing.assert_array_equal(compute_travel_since_reversal(np.ones(3)), np.zeros(3))
 
 
@@ -204,10 +204,10 @@ def test_what_follows_the_travel_is_named() -> None:
     measured = p.measured.copy()
     measured[:, 1] += extra
     (item,) = compare(judged_alone(dataclasses.replace(p, measured=measured))).joints
-    found = verdict.find_best_pattern(item)
-    assert found is not None and found[0].id == "travel"
+    matches = verdict.find_best_pattern(item)
+    assert matches is not None and matches[0].id == "travel"
     known = float(np.var(extra))
-    assert found[1] == pytest.approx(known / (known + NOISE**2), abs=0.08)
+    assert matches[1] == pytest.approx(known / (known + NOISE**2), abs=0.08)
     assert "repeatable function of travel since the last reversal" in verdict.write_joint_verdict(
         item
     )
@@ -224,27 +224,27 @@ def with_temperature(p: Prediction, slope: float) -> Prediction:
 def test_friction_that_changes_with_temperature() -> None:
     p = with_temperature(prediction(seed=5), 0.15)
     assert p.temperature is not None
-    found = compare(p)
-    share = found.joints[1].structure
+    result = compare(p)
+    share = result.joints[1].structure
     assert share is not None
     known = float(np.var(0.15 * (p.temperature[:, 1] - 30.0)))
     assert share.get_share("temperature") == pytest.approx(known / (known + NOISE**2), abs=0.08)
-    assert "repeatable function of temperature" in verdict.write_joint_verdict(found.joints[1])
+    assert "repeatable function of temperature" in verdict.write_joint_verdict(result.joints[1])
     titles = [
         panel.title
-        for picture in draw_all_pictures(found)
+        for picture in draw_all_pictures(result)
         for row in picture.panels
         for panel in row
     ]
     assert sum(title.startswith("Temperature") for title in titles) == 3
-    heat = draw_all_pictures(found)[0].panels[2][0].series[0]
+    heat = draw_all_pictures(result)[0].panels[2][0].series[0]
     assert "temperature" in heat.columns
     part = np.where(p.run[:, None] == 1, np.nan, p.temperature)  # one log lacks it
-    found = compare(dataclasses.replace(p, temperature=part))
-    share = found.joints[1].structure
+    result = compare(dataclasses.replace(p, temperature=part))
+    share = result.joints[1].structure
     assert share is not None and np.isnan(share.get_share("temperature"))
-    assert "temperature" not in found.to_json()["joints"]["1"]["structure"]["shares"]
-    assert "temperature [" not in render_page(build_comparison_page(found))
+    assert "temperature" not in result.to_json()["joints"]["1"]["structure"]["shares"]
+    assert "temperature [" not in render_page(build_comparison_page(result))
 
 
 def test_friction_of_one_temperature_is_no_function_of_it() -> None:
@@ -272,26 +272,26 @@ def at_full_rate(p: Prediction, joint: int, waves: float, amplitude: float) -> P
 def test_a_known_order_is_found(unit: str, per: str, shown: float) -> None:
     p = at_full_rate(prediction(rows=1500), 1, 47.0, 0.6)
     p = dataclasses.replace(p, joints=tuple(JointInfo(n, unit, "N m") for n in "123"))
-    found = compare(p)
-    line = found.to_json()["joints"]["2"]["orders"][0]
+    result = compare(p)
+    line = result.to_json()["joints"]["2"]["orders"][0]
     assert line["waves"] == pytest.approx(shown, rel=0.02)
     assert line["amplitude"] == pytest.approx(0.6, rel=0.25)  # the sine dwells at its ends
     # 0.6^2 / 2 over that and the noise
     assert line["share"] == pytest.approx(0.18 / (0.18 + 0.25), abs=0.15)
-    assert f"waves per {per}, 0." in verdict.write_joint_verdict(found.joints[1])
-    assert verdict.classify_residual(found.joints[1]) == "pattern"
-    assert "ripple of" not in verdict.write_joint_verdict(found.joints[0])
-    orders = draw_all_pictures(found)[4].panels[-1]
+    assert f"waves per {per}, 0." in verdict.write_joint_verdict(result.joints[1])
+    assert verdict.classify_residual(result.joints[1]) == "pattern"
+    assert "ripple of" not in verdict.write_joint_verdict(result.joints[0])
+    orders = draw_all_pictures(result)[4].panels[-1]
     panel = next(panel for panel in orders if panel.title.startswith("Order spectrum"))
     assert f"waves per {per}" in panel.title
 
 
 def test_amplitude_of_a_wave_passed_evenly() -> None:
     q = np.linspace(0.0, 6.0, 50_000)
-    found = compute_order_spectrum(q, 0.3 * np.sin(33.0 * q), "rad", np.inf)
-    assert found is not None
-    assert found.peaks[0] == pytest.approx(33.0, abs=0.3)
-    assert found.amplitude.max() == pytest.approx(0.3, rel=0.02)
+    result = compute_order_spectrum(q, 0.3 * np.sin(33.0 * q), "rad", np.inf)
+    assert result is not None
+    assert result.peaks[0] == pytest.approx(33.0, abs=0.3)
+    assert result.amplitude.max() == pytest.approx(0.3, rel=0.02)
     assert compute_order_spectrum(np.ones(500), np.zeros(500), "rad", np.inf) is None
 
 
@@ -322,10 +322,10 @@ def test_without_a_coupling_the_other_joint_is_named_and_where_to_write_one() ->
 def test_errors_of_each_log() -> None:
     p = prediction(rows=1500)
     p = dataclasses.replace(p, logs=("a_log_with_a_name_much_longer_than_most.parquet", "b"))
-    found = compare(p)
-    told = found.to_json()["by_log"]
+    result = compare(p)
+    text = result.to_json()["by_log"]
     e = p.measured - p.predicted
-    for run, log in enumerate(told):
+    for run, log in enumerate(text):
         rows = p.run == run
         assert log["log"] == p.logs[run] and log["samples"] == 750
         assert log["relative_error"] == pytest.approx(
@@ -335,8 +335,8 @@ def test_errors_of_each_log() -> None:
             assert log["joints"][name] == pytest.approx(
                 np.linalg.norm(e[rows, j]) / np.linalg.norm(p.measured[rows, j])
             )
-    assert format_percent(told[1]["relative_error"]) in found.summary().splitlines()[-1]
-    assert "Relative error by log" in render_page(build_comparison_page(found))
+    assert format_percent(text[1]["relative_error"]) in result.summary().splitlines()[-1]
+    assert "Relative error by log" in render_page(build_comparison_page(result))
 
 
 # Machado, Oliveira and Fernandes 2009, severity 1.0, for linear RGB.

@@ -23,9 +23,9 @@ class RawModule:
             head = code.split(f"{name}(", 1)[1].split(")", 1)[0]
             words = [part.split() for part in head.split(",")]
             kinds = [" ".join(w[:-1]) + ("*" if w[-1].startswith("*") else "") for w in words]
-            given = ", ".join(f"std::uint64_t a{k}" for k in range(len(kinds)))
+            inputs = ", ".join(f"std::uint64_t a{k}" for k in range(len(kinds)))
             cast = ", ".join(f"({kind})a{k}" for k, kind in enumerate(kinds))
-            lines.append(f'extern "C" void run_{name}(unsigned blocks, unsigned threads, {given})')
+            lines.append(f'extern "C" void run_{name}(unsigned blocks, unsigned threads, {inputs})')
             lines.append(f"{{ launch(blocks, threads, [=] {{ {name}({cast}); }}); }}")
         source, library = self.folder / "kernels.cpp", self.folder / "kernels.so"
         source.write_text("\n".join(lines))
@@ -51,7 +51,7 @@ def cupy(folder: Path, devices: int = 1) -> types.ModuleType:
     module = types.ModuleType("cupy")
     kernels = type("Kernels", (RawModule,), {"folder": folder})
     runtime = types.SimpleNamespace(getDeviceCount=lambda: devices)
-    given = {
+    cells = {
         "RawModule": kernels,
         "cuda": types.SimpleNamespace(runtime=runtime),
         "asarray": np.asarray,
@@ -60,6 +60,6 @@ def cupy(folder: Path, devices: int = 1) -> types.ModuleType:
         "zeros": np.zeros,
         "isfinite": np.isfinite,
     }
-    for name, value in given.items():
+    for name, value in cells.items():
         setattr(module, name, value)
     return module

@@ -20,8 +20,8 @@ TREE = robot_text("odd-tree")
 def expected(robot, q):
     """(samples, joints, 3, 4)."""
     moving = [joint.name for joint in robot.moving_joints]
-    found = [frames(robot, sample) for sample in q]
-    return np.array([[poses[name][:3] for name in moving] for poses in found])
+    values = [frames(robot, sample) for sample in q]
+    return np.array([[poses[name][:3] for name in moving] for poses in values])
 
 
 @pytest.mark.parametrize("name", TREES)

@@ -30,10 +30,10 @@ def drawn(samples: int, seed: int):
 
 def check(triangles: np.ndarray, rows: np.ndarray) -> None:
     """R of every joint is upper and has the products of the rows, to rounding."""
-    for own, joint in zip(triangles, rows, strict=True):
-        assert not np.tril(own, -1).any()
+    for item, joint in zip(triangles, rows, strict=True):
+        assert not np.tril(item, -1).any()
         size = np.linalg.norm(joint) ** 2
-        assert np.abs(own.T @ own - joint.T @ joint).max() <= 50 * EPS * max(size, 1e-300)
+        assert np.abs(item.T @ item - joint.T @ joint).max() <= 50 * EPS * max(size, 1e-300)
 
 
 @pytest.mark.digits
@@ -64,11 +64,11 @@ def test_samples_whose_loops_do_not_close_are_left_out():
     far = q.copy()
     far[5] = [0.0, np.pi]
     assert model.closing_status(far).nonzero()[0].tolist() == [5]
-    found = model.triangles(far, qd, qdd, tau)
-    assert found.left_out.nonzero()[0].tolist() == [5] and found.rows.tolist() == [39, 39]
-    kept = np.arange(40) != 5
-    expected = stacked(model, q[kept], qd[kept], qdd[kept], tau[kept])
-    check(found.triangles, expected)
+    result = model.triangles(far, qd, qdd, tau)
+    assert result.left_out.nonzero()[0].tolist() == [5] and result.rows.tolist() == [39, 39]
+    mask = np.arange(40) != 5
+    expected = stacked(model, q[mask], qd[mask], qdd[mask], tau[mask])
+    check(result.triangles, expected)
 
 
 def ill_conditioned(spread: float, rows: int = 700, columns: int = 11) -> np.ndarray:
@@ -86,8 +86,8 @@ def test_small_singular_values_survive():
     exact = np.linalg.svd(A, compute_uv=False)
     pattern = fused.build_pattern([(0, c) for c in range(10)], 1, 10)
     for level in levels():
-        found = fused.reduce_rows(pattern, A[:, None, :10].copy(), A[:, 10:], None, level=level)
-        values = np.linalg.svd(found.triangles[0], compute_uv=False)
+        result = fused.reduce_rows(pattern, A[:, None, :10].copy(), A[:, 10:], None, level=level)
+        values = np.linalg.svd(result.triangles[0], compute_uv=False)
         assert np.abs(values - exact).max() < 30 * EPS
     lost = np.sqrt(np.abs(np.linalg.eigvalsh(A.T @ A)[::-1]))
     assert np.abs(lost - exact).max() > 1e5 * 30 * EPS
@@ -98,10 +98,10 @@ def test_masked_rows_may_hold_anything_and_weights_multiply():
     rng = np.random.default_rng(5)
     weight, use = rng.uniform(0.1, 10.0, q.shape), rng.random(q.shape) < 0.7
     dirty = np.where(use, tau, np.nan)
-    found = wrist.triangles(q, qd, qdd, dirty, use=use, weight=np.where(use, weight, np.inf))
-    assert found.rows.tolist() == use.sum(axis=0).tolist() and not found.left_out.any()
+    result = wrist.triangles(q, qd, qdd, dirty, use=use, weight=np.where(use, weight, np.inf))
+    assert result.rows.tolist() == use.sum(axis=0).tolist() and not result.left_out.any()
     rows = stacked(wrist, q, qd, qdd, tau) * weight.T[:, :, None]
-    check(found.triangles, rows * use.T[:, :, None])
+    check(result.triangles, rows * use.T[:, :, None])
     q[~use.any(axis=1)] = np.nan  # no row of these samples is in use
     assert not wrist.triangles(q, qd, qdd, dirty, use=use).left_out.any()
 
@@ -111,26 +111,26 @@ def test_a_sample_that_is_not_finite_is_told_and_spoils_no_other(value):
     wrist, q, qd, qdd, tau = drawn(43, 6)
     clean = stacked(wrist, q, qd, qdd, tau)
     for sample, array in ((0, q), (11, qd), (30, qdd), (42, tau)):
-        kept = np.arange(43) != sample
+        mask = np.arange(43) != sample
         before, array[sample, 2] = array[sample, 2], value
         if not (array is q and value == 1e200):  # its sine is that of some angle
-            found = wrist.triangles(q, qd, qdd, tau)
-            assert found.left_out.nonzero()[0].tolist() == [sample]
-            assert found.rows.tolist() == [42, 42, 42]
-            check(found.triangles, clean[:, kept])
+            result = wrist.triangles(q, qd, qdd, tau)
+            assert result.left_out.nonzero()[0].tolist() == [sample]
+            assert result.rows.tolist() == [42, 42, 42]
+            check(result.triangles, clean[:, mask])
         array[sample, 2] = before
 
 
 def test_threads_and_blocks_give_the_same_bits(monkeypatch):
     wrist, q, qd, qdd, tau = drawn(5 * 64 + 3, 7)
     monkeypatch.setattr(fused, "BLOCK", 64)
-    found = []
+    values = []
     for count in (1, 2, 7):
         monkeypatch.setattr(build, "count_processors", lambda count=count: count)
-        found.append(wrist.triangles(q, qd, qdd, tau))
-    for own in found[1:]:
-        np.testing.assert_array_equal(own.packed, found[0].packed)
-    check(found[0].triangles, stacked(wrist, q, qd, qdd, tau))
+        values.append(wrist.triangles(q, qd, qdd, tau))
+    for item in values[1:]:
+        np.testing.assert_array_equal(item.packed, values[0].packed)
+    check(values[0].triangles, stacked(wrist, q, qd, qdd, tau))
 
 
 def test_later_samples_are_added_to_a_state():

@@ -32,25 +32,25 @@ def emitted(name: str) -> EmittedModule:
 def gpu(tmp_path_factory):
     """The kernels of a robot, on the CPU."""
     compiler("g++")
-    found = {}
+    table = {}
 
     def model(name: str) -> GpuModel:
-        if name not in found:
+        if name not in table:
             with pytest.MonkeyPatch.context() as patch:
                 patch.setitem(sys.modules, "cupy", cupy(tmp_path_factory.mktemp("gpu")))
-                found[name] = load_gpu(emitted(name))
-        return found[name]
+                table[name] = load_gpu(emitted(name))
+        return table[name]
 
     return model
 
 
 def grams(phi: np.ndarray, tau: np.ndarray, model: GpuModel) -> list[np.ndarray]:
     """By numpy, from the regressor of the scalar C."""
-    found = []
+    values = []
     for joint, columns in enumerate(model.columns):
         rows = np.column_stack([phi[:, joint, list(columns)], tau[:, joint]])
-        found.append(rows.T @ rows)
-    return found
+        values.append(rows.T @ rows)
+    return values
 
 
 @pytest.mark.parametrize("samples", [1, 200])
@@ -173,7 +173,7 @@ def test_nvrtc_compiles_the_kernels():
 def nvrtc() -> ctypes.CDLL:
     spec = util.find_spec("nvidia.cuda_nvrtc") if util.find_spec("nvidia") else None
     places = [Path(place) / "lib" for place in spec.submodule_search_locations] if spec else []
-    found = [path for place in places for path in place.glob("libnvrtc.so.*")]
-    if not found:
+    values = [path for place in places for path in place.glob("libnvrtc.so.*")]
+    if not values:
         pytest.skip("NOT CHECKED: NVRTC is not installed (nvidia-cuda-nvrtc-cu12)")
-    return ctypes.CDLL(str(found[0]))
+    return ctypes.CDLL(str(values[0]))

@@ -111,8 +111,8 @@ def test_threads_may_share_a_model(wrist):
     expected = [wrist.observation(*job) for job in jobs]
 
     def right(number: int) -> bool:
-        found = (wrist.observation(*jobs[number]) for _ in range(20))
-        return all(np.array_equal(W, expected[number]) for W in found)
+        values = (wrist.observation(*jobs[number]) for _ in range(20))
+        return all(np.array_equal(W, expected[number]) for W in values)
 
     with ThreadPoolExecutor(4) as pool:
         assert all(pool.map(right, range(4)))
@@ -133,7 +133,7 @@ def test_signals_that_no_effect_reads_are_refused(name):
         "friction": (qd, beta, q, qdd),
         "triangles": (q, qd, qdd, q),
     }
-    for function, given in calls.items():
-        getattr(model, function)(*given, s=np.zeros((4, 0)))  # none at all
+    for function, entry in calls.items():
+        getattr(model, function)(*entry, s=np.zeros((4, 0)))  # none at all
         with pytest.raises(ShapeError, match="got s, but its effects read no signals; leave s out"):
-            getattr(model, function)(*given, s=s)
+            getattr(model, function)(*entry, s=s)

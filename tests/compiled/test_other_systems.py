@@ -64,7 +64,7 @@ def test_the_compiler_of_microsoft_is_known_by_what_it_says(cl, monkeypatch) -> 
 @pytest.mark.parametrize("robot", ["emps", pytest.param("five-bar", marks=pytest.mark.rotating)])
 def test_a_library_of_it_has_all_that_is_called(cl, robot) -> None:
     """Whole: batches, tables that closing loops reads, tiles; an old cl without /fp:contract."""
-    told = cl()
+    out = cl()
     made = module(robot).emitted
     model = load_module(made.spec, made.files)
     q, qd, qdd = states(len(made.spec.joints), 2000)
@@ -76,13 +76,13 @@ def test_a_library_of_it_has_all_that_is_called(cl, robot) -> None:
     np.testing.assert_allclose(
         model.inverse_dynamics(q, qd, qdd, beta).ravel(), W @ beta, rtol=1e-9, atol=1e-9
     )
-    assert "/nologo /std:c11 /utf-8 /O2 /LD" in told.read_text().splitlines()
+    assert "/nologo /std:c11 /utf-8 /O2 /LD" in out.read_text().splitlines()
 
 
 def test_what_it_says_is_quoted_and_a_portable_library_of_it(cl, monkeypatch) -> None:
-    told = cl("/fp:contract")
+    out = cl("/fp:contract")
     assert build.build_portable_library({"one.c": "int one(void)\n{\n    return 1;\n}\n"})
-    assert "/nologo /std:c11 /utf-8 /O2 /fp:precise /c" in told.read_text().splitlines()
+    assert "/nologo /std:c11 /utf-8 /O2 /fp:precise /c" in out.read_text().splitlines()
     monkeypatch.setenv("CFLAGS", "/fp:wrong")
     made = module("emps").emitted
     with pytest.raises(BuildError, match="D8021 : invalid numeric argument '/fp:wrong'"):
@@ -94,8 +94,8 @@ def test_clang_for_the_linker_of_microsoft_is_given_the_list(tmp_path) -> None:
     (tmp_path / "one.c").write_text("int one(void)\n{\n    return 1;\n}\n")
     tools = build.Toolchain((program("clang", tmp_path),), ("-O1",), "#define _MSC_VER 1939\n")
     build.compile_library(tools, tmp_path, ["one.c"], tmp_path / "one.dll")
-    told = (tmp_path / "told").read_text()
-    assert f"-Wl,/DEF:{tmp_path / 'exports.def'}" in told and "-lm" not in told
+    text = (tmp_path / "told").read_text()
+    assert f"-Wl,/DEF:{tmp_path / 'exports.def'}" in text and "-lm" not in text
     assert (tmp_path / "exports.def").read_text() == "EXPORTS\none\n"
 
 

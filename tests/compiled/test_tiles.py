@@ -111,9 +111,9 @@ def test_far_angles_and_values_that_are_no_numbers_stay_in_their_lane(monkeypatc
         for array in (q, qd, qdd):
             lane, changed = (3 * k) % 16, array.copy()
             changed[lane, k % 3] = odd
-            given = [changed if each is array else each for each in (q, qd, qdd)]
-            tiles.fill_samples(given, got, dense=False)
-            model._library.run_batch(function, given, expected)
+            inputs = [changed if each is array else each for each in (q, qd, qdd)]
+            tiles.fill_samples(inputs, got, dense=False)
+            model._library.run_batch(function, inputs, expected)
             others = np.arange(16) != lane
             np.testing.assert_array_equal(got[others], clean[others])
             size = np.nanmax(np.where(np.isfinite(expected[lane]), np.abs(expected[lane]), 1.0))
@@ -193,17 +193,20 @@ def test_loops_closed_side_by_side_are_those_closed_one_by_one(name, plain):
         q[120:] += 0.01
         qd, qdd = rng.normal(0, 2, (2, *q.shape))
         q[140, 0] = qd[150, 1] = np.nan
-        shape, own, told = (samples * len(home), len(model.spec.base)), *np.zeros((2, samples), "i")
+        shape, items, value = (
+            (samples * len(home), len(model.spec.base)),
+            *np.zeros((2, samples), "i"),
+        )
         W, order = np.empty(shape), np.empty(shape, order="F")
-        model._library.fill_observation([q, qd, qdd], W, own)
+        model._library.fill_observation([q, qd, qdd], W, items)
         for out in (np.empty(shape), order):
-            tiles.fill_samples([q, qd, qdd], out, True, told)
-            np.testing.assert_array_equal(told, own)
+            tiles.fill_samples([q, qd, qdd], out, True, value)
+            np.testing.assert_array_equal(value, items)
             largest = np.abs(W).reshape(samples, -1).max(axis=1).repeat(len(home))[:, None]
             apart = np.abs(out - W) / largest
             assert not (apart > 1e-9).any() and np.nanmedian(apart.max(axis=1)) < 1e-13
             np.testing.assert_array_equal(np.isnan(out), np.isnan(W))
-    assert own[140] == own[150] == 3
+    assert items[140] == items[150] == 3
 
 
 def test_the_observation_matrix_of_loops_uses_tiles(tiled):

@@ -65,7 +65,7 @@ yaw = 1.1
 @cache
 def emitted(robot, tree=False, single=False):
     """A built-in robot by its name, a drawn one by its seed, with the unit for controllers."""
-    found = load(robot) if isinstance(robot, str) else drawn(robot, tree)
-    names = (found.joints[0].name,)
+    result = load(robot) if isinstance(robot, str) else drawn(robot, tree)
+    names = (result.joints[0].name,)
     precision = "single" if single else "double"
-    return found, generate(derive(found), control=Control(names), precision=precision)
+    return result, generate(derive(result), control=Control(names), precision=precision)

@@ -79,11 +79,11 @@ class Folder:
         assert done.returncode == 0, f"{' '.join(words)}\n{done.stdout}{done.stderr}"
         return done.stdout + done.stderr
 
-    def call(self, role: str, state=None, **given) -> tuple[int, np.ndarray]:
+    def call(self, role: str, state=None, **known) -> tuple[int, np.ndarray]:
         """(status, output); from `state` where one is given."""
         function = self.roles[role]
         names = [a.name for a in function.inputs if state is None or a.name not in ("q", "qd")]
-        inputs = [np.ascontiguousarray(given[name], self.number) for name in names]
+        inputs = [np.ascontiguousarray(known[name], self.number) for name in names]
         out = np.full(function.outputs[0].shape, 7.0, self.number)
         pointers = [ctypes.c_void_p(x.ctypes.data) for x in (*inputs, out)]
         end = "_at" if state is not None else ""

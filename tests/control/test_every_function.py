@@ -60,7 +60,7 @@ def states(folder: Folder, samples: int, seed: int, wide: float = 1.0) -> Iterat
     home = home_of(folder)
     reach = wide * (0.25 if folder.robot.loops else 2.0)
     units = np.array([1.0 if j.is_revolute else 0.3 * o.size for j in folder.robot.coordinates])
-    found = 0
+    text = 0
     for _ in range(20 * samples):
         q = home[o.given] + random.uniform(-reach, reach, o.n) * units
         q = q.astype(number).astype(float)
@@ -71,8 +71,8 @@ def states(folder: Folder, samples: int, seed: int, wide: float = 1.0) -> Iterat
         if not np.isfinite(u).all() or o.regular(u) < 0.03:
             continue
         yield State(u, q, *motion)
-        found += 1
-        if found == samples:
+        text += 1
+        if text == samples:
             return
     raise AssertionError("no closed postures near home")
 
@@ -80,8 +80,8 @@ def states(folder: Folder, samples: int, seed: int, wide: float = 1.0) -> Iterat
 def home_of(folder: Folder) -> np.ndarray:
     """The free variables at home, closed."""
     o, closure = folder.oracle, folder.spec.closure
-    given = folder.robot.home
-    home = np.array([given.get(j.name, 0.0) for j in folder.robot.free_joints])
+    inputs = folder.robot.home
+    home = np.array([inputs.get(j.name, 0.0) for j in folder.robot.free_joints])
     if closure is not None:
         assert len(closure.home) == len(home)
         home = np.array(closure.home)
@@ -101,7 +101,7 @@ def expected(o: Oracle, folder: Folder, s: State) -> dict[str, tuple]:
     def of_beta(out):
         return out.astype(float) @ beta
 
-    found = {
+    table = {
         "inverse_dynamics": (tau, exact),
         "regressor": (tau, exact, lambda out: out.astype(float) @ chi),
         "base_regressor": (tau, exact, of_beta),
@@ -135,23 +135,23 @@ def expected(o: Oracle, folder: Folder, s: State) -> dict[str, tuple]:
         "close_from": (u, SOLVED),
     }
     for end, name in named(folder).items():
-        found[f"pose_{end}"] = (o.pose(u, name), exact)
-        found[f"jacobian_{end}"] = (o.jacobian(u, name), exact)
-        found[f"jacobian_dot_qd_{end}"] = (o.jacobian_dot_qd(u, qd, name), exact)
-        found[f"twist_{end}"] = (o.twist(u, qd, name), exact)
+        table[f"pose_{end}"] = (o.pose(u, name), exact)
+        table[f"jacobian_{end}"] = (o.jacobian(u, name), exact)
+        table[f"jacobian_dot_qd_{end}"] = (o.jacobian_dot_qd(u, qd, name), exact)
+        table[f"twist_{end}"] = (o.twist(u, qd, name), exact)
     o.width = WIDTH
-    found["smooth_friction"] = (o.friction(u, qd)[0], exact)
-    found["smooth_inverse_dynamics"] = (o.torques(u, qd, s.qdd)[0], exact)
+    table["smooth_friction"] = (o.friction(u, qd)[0], exact)
+    table["smooth_inverse_dynamics"] = (o.torques(u, qd, s.qdd)[0], exact)
     o.width = 0.0
-    return found
+    return table
 
 
 def named(folder: Folder) -> dict[str, str]:
     """{end of the function's name: row or link} that was requested besides the tool."""
     ends = [role[len("pose_") :] for role in folder.roles if role.startswith("pose_")]
     names = [*folder.robot.frames, *(joint.name for joint in folder.robot.joints)]
-    found = {re.sub(r"\W", "_", name).lower(): name for name in reversed(names)}
-    return {end: found[end] for end in ends}
+    table = {re.sub(r"\W", "_", name).lower(): name for name in reversed(names)}
+    return {end: table[end] for end in ends}
 
 
 def widths(folder: Folder) -> np.ndarray:
@@ -190,7 +190,7 @@ def checked(folder: Folder, samples: int, seed: int, wide: float = 1.0) -> dict[
     for s in states(folder, samples, seed, wide):
         wanted = expected(o, folder, s)
         tau = o.torques(s.u, s.qd, s.qdd)[0]
-        given = {
+        cells = {
             **s._asdict(),
             "beta": beta,
             "tau": tau,
@@ -206,10 +206,10 @@ def checked(folder: Folder, samples: int, seed: int, wide: float = 1.0) -> dict[
             plain = role.removeprefix("fitted_")
             if plain in LEFT or "platform" in plain or (plain in SMOOTH and together(folder)):
                 continue
-            compare(role, *reversed(folder.call(role, **given)), wanted[plain])
+            compare(role, *reversed(folder.call(role, **cells)), wanted[plain])
             if state is not None and folder.has(f"{role}_at"):
-                compare(f"{role}_at", *reversed(folder.call(role, state, **given)), wanted[plain])
-        h = folder.call("energy_regressor", **given)[1].astype(float) @ beta
+                compare(f"{role}_at", *reversed(folder.call(role, state, **cells)), wanted[plain])
+        h = folder.call("energy_regressor", **cells)[1].astype(float) @ beta
         total = o.energy(s.u, s.qd)
         if before is not None:
             compare("energy_regressor", h - before[0], 0, (total - before[1], SOLVED))
@@ -228,11 +228,11 @@ def folder(tmp_path_factory):
 
     @cache
     def made(name: str, single: bool = False) -> Folder:
-        found = derivation(name)
-        moving = [name for name, frame in found.robot.frames.items() if frame.row != "0"]
-        frames = (found.robot.joints[0].name, *moving[:1])
+        result = derivation(name)
+        moving = [name for name, frame in result.robot.frames.items() if frame.row != "0"]
+        frames = (result.robot.joints[0].name, *moving[:1])
         path = tmp_path_factory.mktemp("c")
-        return Folder(found, path, single, control=Control(frames)).compiled()
+        return Folder(result, path, single, control=Control(frames)).compiled()
 
     return made
 
@@ -299,16 +299,16 @@ def test_what_is_not_finite_is_told(folder, name, bad):
             for place in {0, value.size - 1}:
                 wrong = value.copy()
                 wrong.flat[place] = bad
-                given = good | {argument.name: wrong}
+                inputs = good | {argument.name: wrong}
                 where = f"{role}({argument.name}[{place}] = {bad})"
-                status, out = made.call(role, **given)
+                status, out = made.call(role, **inputs)
                 if not function.status:
                     entered = out != made.call(role, **good)[1]
                     assert not np.isfinite(out[entered]).any(), where
                     continue
                 assert status == NOT_FINITE and np.isnan(out).all(), where
                 if made.has(f"{role}_at") and argument.name not in ("q", "qd"):
-                    status, out = made.call(role, state, **given)
+                    status, out = made.call(role, state, **inputs)
                     assert status == NOT_FINITE and np.isnan(out).all(), where
 
 
@@ -364,20 +364,20 @@ def test_far_from_home_loops_are_closed_or_it_is_told(folder):
     made, random = folder("five-bar"), np.random.default_rng(37)
     o = made.oracle
     good = everything(made, next(states(made, 1, 38)))
-    told = closed = 0
+    text = closed = 0
     for q in random.uniform(-np.pi, np.pi, (120, o.n)):
-        given = good | {"q": q}
-        status, u = made.call("close", **given)
+        inputs = good | {"q": q}
+        status, u = made.call("close", **inputs)
         if status == 0:
             closed += 1
             assert np.abs(o.errors(u)[0]).max() < 1e-9
             if o.regular(u) > 0.01:
-                M = made.call("inertia_matrix", **given)[1]
+                M = made.call("inertia_matrix", **inputs)[1]
                 np.testing.assert_allclose(M, o.inertia(u), atol=1e-8 * np.abs(M).max())
             continue
-        told += 1
+        text += 1
         for role, function in made.roles.items():
             if function.status and role != "close_from":
-                answer, out = made.call(role, **given)
+                answer, out = made.call(role, **inputs)
                 assert answer != 0 and np.isnan(out).all(), role
-    assert closed and told
+    assert closed and text

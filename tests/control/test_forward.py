@@ -27,10 +27,10 @@ def test_a_massless_last_link():
     without = {k for k in chi if k.endswith(last) and k[:2] not in ("Fv", "Fs", "Of")}
     beta = model.base_parameters([0.0 if name in without else v for name, v in chi.items()])
     q, qd, tau = random.normal(size=(3, 20, n))
-    given = {"q": q, "qd": qd, "tau": 5 * tau, "beta": beta}
-    assert set(model.evaluate_status("forward_dynamics", **given)) == {2}
+    cells = {"q": q, "qd": qd, "tau": 5 * tau, "beta": beta}
+    assert set(model.evaluate_status("forward_dynamics", **cells)) == {2}
     with pytest.raises(ModelerError, match=r"forward_dynamics.*not positive"):
-        model.evaluate("forward_dynamics", **given)
+        model.evaluate("forward_dynamics", **cells)
 
 
 LOADED = Path(__file__).with_name("loaded.toml").read_text(encoding="utf-8")
@@ -44,20 +44,20 @@ def test_friction_that_reads_accelerations():
     assert len(chi) == len(model.spec.standard)
     beta = model.base_parameters([*chi.values()])
     q, qd, tau = random.normal(size=(3, 200, 3))
-    given = {"q": q, "qd": qd, "tau": 10 * tau, "s": random.uniform(-1, 1, (200, 1)), "beta": beta}
-    qdd = model.evaluate("forward_dynamics", **given)
-    back = model.inverse_dynamics(q, qd, qdd, beta, s=given["s"])
-    assert np.abs(back - given["tau"]).max() <= 1e-10 * np.abs(given["tau"]).max()
+    cells = {"q": q, "qd": qd, "tau": 10 * tau, "s": random.uniform(-1, 1, (200, 1)), "beta": beta}
+    qdd = model.evaluate("forward_dynamics", **cells)
+    back = model.inverse_dynamics(q, qd, qdd, beta, s=cells["s"])
+    assert np.abs(back - cells["tau"]).max() <= 1e-10 * np.abs(cells["tau"]).max()
     without = beta.copy()
     without[[k for k, base in enumerate(model.spec.base) if base.name.startswith("mu")]] = 0.0
-    plain = model.evaluate("forward_dynamics", **(given | {"beta": without}))
+    plain = model.evaluate("forward_dynamics", **(cells | {"beta": without}))
     assert np.abs(qdd - plain).max() > 0.1
-    D = model.evaluate("forward_derivatives", **given)
+    D = model.evaluate("forward_derivatives", **cells)
     for part, name in enumerate(("q", "qd", "tau")):
         step = 1e-6 * np.eye(3)
         for j in range(3):
             ahead, behind = (
-                model.evaluate("forward_dynamics", **(given | {name: given[name] + s * step[j]}))
+                model.evaluate("forward_dynamics", **(cells | {name: cells[name] + s * step[j]}))
                 for s in (1, -1)
             )
             apart = np.abs((ahead - behind) / 2e-6 - D[:, part, :, j]).max(axis=1)
@@ -65,7 +65,7 @@ def test_friction_that_reads_accelerations():
 
 
 def test_an_own_effect_of_the_acceleration():
-    own = """drag = ["2"]
+    local = """drag = ["2"]
 
 [own_effects.drag]
 title = "drag of a fluid that is carried along"
@@ -73,7 +73,7 @@ columns = { Da = "a*abs(a)" }
 unit = "1"
 
 [reference]"""
-    text = LOADED[: LOADED.index("load_friction")] + own + LOADED.split("[reference]")[1]
+    text = LOADED[: LOADED.index("load_friction")] + local + LOADED.split("[reference]")[1]
     model = loaded(generate(derive(parse_robot_text(text, "drag")), control=Control()))
     random = np.random.default_rng(10)
     chi = drawn_parameters(model.spec, random)

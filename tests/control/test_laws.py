@@ -68,16 +68,16 @@ def test_links_of_frames_have_their_jacobians():
 
 
 @with_cases(
-    "names, told",
+    "names, text",
     (["hand"], 'frame "hand": two-link has none of that name; expected hand-1, hand_1, 1, 2'),
     (["base"], 'frame "base": two-link has none of that name; expected hand-1'),
     (["hand-1", "hand_1"], 'frame "hand_1": functions of another frame or role end in _hand_1'),
 )
-def test_frames_that_cannot_be_are_told(names, told):
-    found = derive(parse_robot_text(load("two-link").text + FRAMES, "hands"))
+def test_frames_that_cannot_be_are_told(names, text):
+    result = derive(parse_robot_text(load("two-link").text + FRAMES, "hands"))
     with pytest.raises((DerivationError, EmitError)) as error:
-        generate_robot(found, frames=names)
-    assert told in str(error.value) and "\n" not in str(error.value)
+        generate_robot(result, frames=names)
+    assert text in str(error.value) and "\n" not in str(error.value)
 
 
 def test_the_command_line_asks_for_frames(tmp_path):

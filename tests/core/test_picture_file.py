@@ -32,8 +32,8 @@ def test_pictures_come_back_as_they_were(tmp_path) -> None:
     place = tmp_path / "p.json"
     place.write_text(format_pictures([EVERY_KIND, EVERY_KIND]))
     check_schema("pictures", json.loads(place.read_text()))
-    found = read_pictures(place)
-    assert len(found) == 2 and same(found[0], EVERY_KIND)
+    result = read_pictures(place)
+    assert len(result) == 2 and same(result[0], EVERY_KIND)
 
 
 def panel(raw: dict[str, Any]) -> dict[str, Any]:
@@ -50,14 +50,14 @@ SPOILT = {
 }
 
 
-@pytest.mark.parametrize("told", SPOILT)
-def test_what_is_no_such_file_is_refused_in_one_line(tmp_path, told: str) -> None:
+@pytest.mark.parametrize("text", SPOILT)
+def test_what_is_no_such_file_is_refused_in_one_line(tmp_path, text: str) -> None:
     place, raw = tmp_path / "p.json", json.loads(format_pictures([EVERY_KIND]))
-    SPOILT[told](raw)
+    SPOILT[text](raw)
     place.write_text(json.dumps(raw))
     with pytest.raises(DataError) as error:
         read_pictures(place)
-    assert told in str(error.value) and str(place) in str(error.value)
+    assert text in str(error.value) and str(place) in str(error.value)
     assert "\n" not in str(error.value)
 
 

@@ -109,12 +109,12 @@ def call_lines(function: FunctionSpec, inputs: Mapping[str, np.ndarray], number:
 def arrays(said, calls, kind):
     """What was said, as arrays in double precision."""
     lines = iter(said)
-    found = []
+    values = []
     for function, inputs in calls:
         samples = len(next(iter(inputs.values())))
         numbers = [np.frombuffer(bytes.fromhex(next(lines)), kind) for _ in range(samples)]
-        found.append(np.array(numbers, float).reshape(samples, *function.outputs[0].shape))
-    return found
+        values.append(np.array(numbers, float).reshape(samples, *function.outputs[0].shape))
+    return values
 
 
 def output(words: Sequence[str]) -> str:

@@ -41,8 +41,8 @@ def make(folder: Path, *targets: str, flags: str = FLAGS, fails: bool = False) -
 def built(emitted: EmittedModule, folder: Path, *targets: str, flags: str = FLAGS) -> Path:
     """The folder with the emitted files, and with what `make` makes of them."""
     key = _key(emitted.files, *targets, flags, _version())
-    kept = KEPT / key
-    if not kept.is_dir():
+    stored = KEPT / key
+    if not stored.is_dir():
         KEPT.mkdir(parents=True, exist_ok=True)
         for old in sorted(KEPT.iterdir(), key=_used)[: 1 - MOST]:
             shutil.rmtree(old, ignore_errors=True)
@@ -50,11 +50,11 @@ def built(emitted: EmittedModule, folder: Path, *targets: str, flags: str = FLAG
         write_emitted(emitted, new)
         make(new, *targets, flags=flags)
         try:
-            new.rename(kept)
+            new.rename(stored)
         except OSError:  # another process was first
             shutil.rmtree(new)
-    os.utime(kept)
-    shutil.copytree(kept, folder, symlinks=True, dirs_exist_ok=True)
+    os.utime(stored)
+    shutil.copytree(stored, folder, symlinks=True, dirs_exist_ok=True)
     return folder
 
 

@@ -25,12 +25,12 @@ SUM = re.compile(r"[+-]=")
 
 def mutants_of(emitted: EmittedModule) -> dict[str, list[Mutant]]:
     """By kind: sign, constant, term, bound."""
-    found: dict[str, list[Mutant]] = {"sign": [], "constant": [], "term": [], "bound": []}
+    table: dict[str, list[Mutant]] = {"sign": [], "constant": [], "term": [], "bound": []}
     for file, at, line, head in code_lines(emitted, *RUNTIME):
         if not line.startswith("#") and "static const int" not in head:
             for kind, mutant in _in_line(file, line, at):
-                found[kind].append(mutant)
-    return found
+                table[kind].append(mutant)
+    return table
 
 
 def _in_line(file: str, line: str, at: int) -> Iterator[tuple[str, Mutant]]:

@@ -80,22 +80,22 @@ class Machine:
         words = [str(word) for word in program]
         with subprocess.Popen(
             words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-        ) as own:
-            assert own.stdin is not None and own.stdout is not None
+        ) as item:
+            assert item.stdin is not None and item.stdout is not None
             for k in range(ticks):
                 q = run.quantise_position(x[:n], self.resolution)
-                told = line(k, q, x[n : 2 * n], tau)
-                own.stdin.write(" ".join(repr(float(value)) for value in told) + "\n")
-                own.stdin.flush()
-                answer = np.array([float(word) for word in own.stdout.readline().split()])
+                stated = line(k, q, x[n : 2 * n], tau)
+                item.stdin.write(" ".join(repr(float(value)) for value in stated) + "\n")
+                item.stdin.flush()
+                answer = np.array([float(word) for word in item.stdout.readline().split()])
                 assert answer.size >= n, f"{words} ended at sample {k}"
                 error = x[:n] - self.reference.q[k]
                 tau = np.where(plant.driven, answer[:n], 0.0)
                 rows.append((error, x[n : 2 * n].copy(), tau, answer))
                 outside = push(self.reference.time[k]) if push else 0.0
                 x = self._advance(x, tau + outside)
-            own.stdin.close()
-            assert own.wait() == 0
+            item.stdin.close()
+            assert item.wait() == 0
         return Driven(*(np.array(values) for values in zip(*rows, strict=True)))
 
 

@@ -257,7 +257,7 @@ BOTH = "inverse_dynamics,regressor"
 @pytest.mark.rotating("long tests of csrc")
 def test_the_stack_of_a_call_is_a_bound_of_what_it_uses(tmp_path):
     """Painted and looked at after the call; the C library's own frames come on top."""
-    found, module = costs("five-bar", BOTH), emitted("five-bar", BOTH)
+    values, module = costs("five-bar", BOTH), emitted("five-bar", BOTH)
     write_emitted(module, tmp_path)
     sources = [n for n in module.spec.controller_sources if n.endswith(".c")]
     run(
@@ -270,7 +270,7 @@ def test_the_stack_of_a_call_is_a_bound_of_what_it_uses(tmp_path):
     )
     nothing, *both = map(int, run(tmp_path / "painted", where=tmp_path).split())
     for painted, role in zip(both, BOTH.split(","), strict=True):
-        stack = found[f"five_bar_{role}"]["stack"]
+        stack = values[f"five_bar_{role}"]["stack"]
         assert painted - nothing - 1500 <= stack <= 2 * (painted - nothing), role
 
 
@@ -311,8 +311,8 @@ def test_the_cost_on_a_microcontroller_is_in_the_readme(tmp_path):
     for tool in ("arm-none-eabi-gcc", "qemu-system-arm"):
         compiler(tool)
     module = add_cost(emitted("two-link", "gravity,forward_dynamics", "single"), "cortex-m4")
-    told = json.loads(module.files["cost.json"])
-    gravity = next(row for row in told["functions"] if row["name"] == "two_link_gravity")
+    data = json.loads(module.files["cost.json"])
+    gravity = next(row for row in data["functions"] if row["name"] == "two_link_gravity")
     assert 10 < gravity["instructions"] < 400 and 50 < gravity["flash"] < 2000
     line = f"| `two_link_gravity` | {gravity['stack']} | {gravity['flash']} "
     assert line + f"| {gravity['instructions']} |" in module.files["README.md"]

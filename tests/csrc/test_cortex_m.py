@@ -75,21 +75,21 @@ def test_sines_of_the_library_are_not_wanted_where_angles_are_bounded(tmp_path):
 def test_it_computes_what_the_host_computes(name, cpu, precision, bound, tmp_path):
     made, host = emitted(name, precision), robot_module(name).emitted
     compiled = loaded(host)
-    given = dict(zip(("q", "qd", "qdd"), states(len(host.spec.joints), 20), strict=True))
+    cells = dict(zip(("q", "qd", "qdd"), states(len(host.spec.joints), 20), strict=True))
     if host.spec.closure is not None:
-        given["q"] = 0.1 * given["q"] + [
+        cells["q"] = 0.1 * cells["q"] + [
             host.spec.closure.home[k] for k in host.spec.closure.actuated
         ]
         bound *= 10  # what closes the loops is only as exact as the posture is far from singular
     rng = np.random.default_rng(1)
-    given["beta"] = np.tile(rng.normal(size=len(host.spec.base)), (20, 1))
-    given["s"] = rng.uniform(0, 1, (20, len(host.spec.signals)))
-    given = {key: value.astype(np.float32).astype(float) for key, value in given.items()}
-    motion = [given["q"], given["qd"], given["qdd"]]
-    signals = {"s": given["s"]} if host.spec.signals else {}
+    cells["beta"] = np.tile(rng.normal(size=len(host.spec.base)), (20, 1))
+    cells["s"] = rng.uniform(0, 1, (20, len(host.spec.signals)))
+    cells = {key: value.astype(np.float32).astype(float) for key, value in cells.items()}
+    motion = [cells["q"], cells["qd"], cells["qdd"]]
+    signals = {"s": cells["s"]} if host.spec.signals else {}
     functions = {f.name.removeprefix(f"{host.spec.prefix}_"): f for f in made.spec.functions}
     calls = [
-        (functions[role], {a.name: given[a.name] for a in functions[role].inputs})
+        (functions[role], {a.name: cells[a.name] for a in functions[role].inputs})
         for role in ("base_regressor", "inverse_dynamics")
     ]
     phi, tau = run(made, tmp_path, cpu, calls)
@@ -98,8 +98,8 @@ def test_it_computes_what_the_host_computes(name, cpu, precision, bound, tmp_pat
     expected = compiled.base_regressor(*motion, **signals)
     size = np.abs(expected).max(axis=(1, 2))
     assert (np.abs(phi - expected).max(axis=(1, 2)) <= bound * size).all()
-    parts = np.einsum("njc,nc->nj", np.abs(expected), np.abs(given["beta"])).max(axis=1)
-    apart = np.abs(tau - compiled.inverse_dynamics(*motion, given["beta"][0], **signals))
+    parts = np.einsum("njc,nc->nj", np.abs(expected), np.abs(cells["beta"])).max(axis=1)
+    apart = np.abs(tau - compiled.inverse_dynamics(*motion, cells["beta"][0], **signals))
     assert (apart.max(axis=1) <= bound * parts).all()
 
 
@@ -112,8 +112,8 @@ def test_instructions_of_a_call_are_counted(precision, tmp_path):
     write_emitted(made, tmp_path)
     library(made, tmp_path, "cortex-m7")
     subprocess.run(["make", "-s", "-C", tmp_path, "count"], check=True, stdout=subprocess.DEVNULL)
-    told = (tmp_path / "puma560_instructions.h").read_text()
-    counts = {role: int(n) for role, n in re.findall(r"PUMA560_(\w+)_INSTRUCTIONS (\d+)", told)}
+    text = (tmp_path / "puma560_instructions.h").read_text()
+    counts = {role: int(n) for role, n in re.findall(r"PUMA560_(\w+)_INSTRUCTIONS (\d+)", text)}
     assert len(counts) == len(made.spec.functions)
     for role in ("friction", "base_parameters"):
         assert counts[role.upper()] == listed(tmp_path / "puma560.c.cortex-m7.o", f"puma560_{role}")

@@ -134,8 +134,8 @@ def test_cmake_installs_either_kind(folder, tmp_path, shared):
     install_by_cmake(folder, prefix, shared)
     consume(place, prefix, shared, f"{format_package_version(signature())} EXACT REQUIRED")
     kinds = ("static", "shared")
-    told = configure(place, prefix, f"REQUIRED COMPONENTS {kinds[not shared]}", fails=True)
-    assert f"no library of signature {signature()} here that is {kinds[not shared]}" in told
+    text = configure(place, prefix, f"REQUIRED COMPONENTS {kinds[not shared]}", fails=True)
+    assert f"no library of signature {signature()} here that is {kinds[not shared]}" in text
     (pc,) = prefix.rglob("emps.pc")
     path = {"PKG_CONFIG_PATH": str(pc.parent)}
     includes = run("pkg-config", "--cflags", "emps", where=place, **path).strip()
@@ -154,8 +154,8 @@ def test_the_library_beside_is_found_where_the_first_has_another_signature(folde
     both = f"{tmp_path / 'first'};{prefix}"
     consume(place, both, False, f"{version} REQUIRED")
     for wanted in (version, "1"):
-        told = configure(place, tmp_path / "first", f"{wanted} REQUIRED", fails=True)
-        assert format_package_version(signature()[::-1]) in told  # "considered but not accepted"
+        text = configure(place, tmp_path / "first", f"{wanted} REQUIRED", fails=True)
+        assert format_package_version(signature()[::-1]) in text  # "considered but not accepted"
 
 
 @pytest.mark.rotating("another signature")
@@ -173,8 +173,8 @@ def test_a_program_never_gets_the_library_of_another_signature(folder, tmp_path)
     assert run("./old", where=place) == f"{signature()} 100"
     assert run("./new", where=place) == f"{signature()[::-1]} 100"
     (lib / f"libemps_model.so.{signature()}").unlink()
-    told = run("./old", where=place, fails=True)
-    assert f"libemps_model.so.{signature()}" in told
+    out = run("./old", where=place, fails=True)
+    assert f"libemps_model.so.{signature()}" in out
 
 
 @pytest.mark.slow
@@ -185,8 +185,8 @@ def test_a_kind_that_was_left_by_another_signature_is_not_taken(folder, tmp_path
     install_by_cmake(folder, prefix, shared=False)
     write_other(folder)
     install_by_cmake(folder, prefix, shared=True)
-    told = configure(place, prefix, "REQUIRED COMPONENTS static", fails=True)
-    assert "that is static" in told
+    text = configure(place, prefix, "REQUIRED COMPONENTS static", fails=True)
+    assert "that is static" in text
 
 
 def test_a_destination_goes_before_the_prefix(folder, tmp_path):
@@ -205,8 +205,8 @@ def test_the_check_of_the_folder_notices_a_library_that_is_not_its_own(folder):
     )
     header = (folder / "emps.h").read_text()
     (folder / "emps.h").write_text(header.replace(signature(), "0" * 16))
-    told = run("make", "check", where=folder, fails=True)
-    assert f"the library is {signature()},\nthe header {'0' * 16}" in told
+    out = run("make", "check", where=folder, fails=True)
+    assert f"the library is {signature()},\nthe header {'0' * 16}" in out
 
 
 def test_a_version_is_made_of_the_signature():

@@ -49,23 +49,23 @@ def same_ways(emitted: EmittedModule, other: EmittedModule) -> bool:
     that takes is all that differs.
     """
     home = np.array([emitted.spec.closure.home[k] for k in emitted.spec.closure.actuated])
-    found = []
+    values = []
     for files in (emitted, other):
-        robot, rng, own = loaded(files), np.random.default_rng(11), []
+        robot, rng, items = loaded(files), np.random.default_rng(11), []
         for size in (1e-3, 3e-2):
             t = np.linspace(0.0, 6.0, 301)[:, None]
             q = home + size * np.sin(t * rng.uniform(0.5, 2.0, len(home)))
             qd, qdd = rng.normal(size=(2, *q.shape))
             try:
-                own.append(robot.observation(q, qd, qdd))
+                items.append(robot.observation(q, qd, qdd))
             except ModelerError:
-                own.append(np.full(1, np.nan))
+                items.append(np.full(1, np.nan))
         far = home + np.outer(np.logspace(-3, 3, 40), rng.normal(size=len(home)))
-        own.append(robot.closing_status(far) == 0)
-        found.append(own)
+        items.append(robot.closing_status(far) == 0)
+        values.append(items)
     return all(
         a.shape == b.shape and np.all(np.abs(a * 1.0 - b) <= 1e-9 * np.abs(a * 1.0).max())
-        for a, b in zip(*found, strict=True)
+        for a, b in zip(*values, strict=True)
     )
 
 

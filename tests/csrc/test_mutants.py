@@ -72,8 +72,8 @@ def code_lines(emitted: EmittedModule, *runtime: str) -> Iterator[tuple[str, int
     Comments are blank.
     """
     for file, text in emitted.files.items():
-        own = file.startswith(emitted.spec.prefix) and file.endswith(".c")
-        if not own and file not in runtime:
+        mask = file.startswith(emitted.spec.prefix) and file.endswith(".c")
+        if not mask and file not in runtime:
             continue
         plain = re.sub(
             r"/\*.*?\*/|//[^\n]*", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.S
@@ -122,24 +122,24 @@ def same_results(emitted: EmittedModule, changed: EmittedModule, name: str) -> b
     There are terms that cancel (w x of a vector along w), vanish wherever the loops are closed, or
     are read for their sign alone; lengths that a file does not use; limits that nothing reaches.
     """
-    given = motion(name)
+    inputs = motion(name)
     random = np.random.default_rng(3)
-    spec, n = emitted.spec, len(given["q"])
+    spec, n = emitted.spec, len(inputs["q"])
     rounding = 1e-5 if spec.precision == "single" else 1e-12
-    given |= {
+    inputs |= {
         "beta": random.normal(size=len(spec.base)),
         "chi": random.normal(size=len(spec.standard)),
     }
-    given |= {"dq": 0.01 * given["qd"], "dt": np.full((n, 1), 0.002)}
+    inputs |= {"dq": 0.01 * inputs["qd"], "dt": np.full((n, 1), 0.002)}
     both = [Functions(each) for each in (emitted, changed)]
     if spec.closure is not None:
-        given["start"] = both[0]("close", given)[::-1]
+        inputs["start"] = both[0]("close", inputs)[::-1]
     for role in both[0].every:
         try:
-            right, found = (each(role, given) for each in both)
+            right, values = (each(role, inputs) for each in both)
         except AssertionError:  # a status
             return False
-        if not np.all(np.abs(found - right) <= rounding * np.abs(right).max()):
+        if not np.all(np.abs(values - right) <= rounding * np.abs(right).max()):
             return False
     return True
 

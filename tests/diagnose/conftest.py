@@ -69,9 +69,9 @@ def _hidden(case: Case, torque: Torque) -> tuple[IdentifiedModel, Log, Log]:
 
 def _diagnosed(case: Case, torque: Torque, without: tuple[str, ...]) -> Diagnosis:
     model, train, holdout = case.hidden(torque)
-    found = diagnose(model, case.compiled, [train], [holdout], without=without)
-    check_gains(found)
-    return found
+    result = diagnose(model, case.compiled, [train], [holdout], without=without)
+    check_gains(result)
+    return result
 
 
 _found, _shared = lru_cache(maxsize=4)(_diagnosed), cache(_diagnosed)
@@ -79,8 +79,8 @@ _found, _shared = lru_cache(maxsize=4)(_diagnosed), cache(_diagnosed)
 
 def check_gains(found: Diagnosis) -> None:
     """The gain of an effect is what its two printed errors imply, and nothing else."""
-    findings, told = [*found.effects, *found.refinements], found.to_json()
-    for plain, finding in zip([*told["effects"], *told["refinements"]], findings, strict=True):
+    findings, text = [*found.effects, *found.refinements], found.to_json()
+    for plain, finding in zip([*text["effects"], *text["refinements"]], findings, strict=True):
         before, after = plain["error_before"], plain["error_after"]
         if after is None:  # play whose column does not lower the error
             assert plain["gain"] is None
@@ -167,9 +167,9 @@ def motion(log: Log) -> tuple[np.ndarray, np.ndarray]:
 
 def on_joint(log: Log, joint: int, torque: np.ndarray) -> np.ndarray:
     """(n, joints) zero but on one joint."""
-    found = np.zeros_like(log.tau)
-    found[:, joint] = torque
-    return found
+    actual = np.zeros_like(log.tau)
+    actual[:, joint] = torque
+    return actual
 
 
 def nothing(log: Log) -> np.ndarray:

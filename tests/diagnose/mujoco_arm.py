@@ -164,10 +164,10 @@ def _feedforward(wanted: np.ndarray, speed: np.ndarray) -> np.ndarray:
     model = mujoco.MjModel.from_xml_string(mjcf(random_arm(0)))
     model.dof_frictionloss[:] = 0.0
     data = mujoco.MjData(model)
-    found = np.empty_like(wanted)
+    actual = np.empty_like(wanted)
     lift = np.gradient(speed, TICK, axis=0)
     for k in range(len(wanted)):
         data.qpos[:], data.qvel[:], data.qacc[:] = wanted[k], speed[k], lift[k]
         mujoco.mj_inverse(model, data)
-        found[k] = data.qfrc_inverse
-    return found
+        actual[k] = data.qfrc_inverse
+    return actual

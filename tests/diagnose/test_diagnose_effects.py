@@ -61,9 +61,9 @@ def test_a_hidden_effect_is_named_with_its_values(case: Case, effect: str) -> No
 
 def test_one_effect_alone_has_the_errors_of_its_joint_and_what_other_looks_say(case: Case) -> None:
     """Same rows, same weights; looks in the fields that scripts read too."""
-    found = case.found(spring)
-    (first,) = [*found.effects, *found.refinements]
-    joint = found.joints["3"]
+    result = case.found(spring)
+    (first,) = [*result.effects, *result.refinements]
+    joint = result.joints["3"]
     assert first.error_before == pytest.approx(joint.error_before)
     assert first.error_after == pytest.approx(joint.error_after)
     held_out, band = first.cross_checks
@@ -72,10 +72,10 @@ def test_one_effect_alone_has_the_errors_of_its_joint_and_what_other_looks_say(c
     assert all(
         look.agrees and look.leading_effect == ("spring", "3") for look in first.cross_checks
     )
-    told = found.to_json()
-    leads = told["effects"][0]["splits"][0]["leading_effect"]
-    assert leads == {"effect": "spring", "joint": "3"} and told["joints"].keys() == {"1", "2", "3"}
-    assert found.machine_changed == ()
+    data = result.to_json()
+    leads = data["effects"][0]["splits"][0]["leading_effect"]
+    assert leads == {"effect": "spring", "joint": "3"} and data["joints"].keys() == {"1", "2", "3"}
+    assert result.machine_changed == ()
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
@@ -94,8 +94,8 @@ def test_effects_that_fail_on_held_out_motion_are_not_named(case: Case) -> None:
     assert ("spring", "3") in {
         judged.candidate.key for judged in diagnosis.search.vetoed_candidates
     }
-    (told,) = [line for line in diagnosis.sentences if line.startswith("not named: spring at")]
-    assert "that of motion left out does not fall significantly" in told
+    (lines,) = [line for line in diagnosis.sentences if line.startswith("not named: spring at")]
+    assert "that of motion left out does not fall significantly" in lines
 
 
 def test_nothing_is_named_where_nothing_is_hidden(case: Case) -> None:
@@ -194,11 +194,13 @@ def test_what_has_changed_is_told(case: Case, name: str) -> None:
     torque, moved = CHANGES[name]
     model, train, holdout = case.hidden(nothing)
     holdout = dataclasses.replace(holdout, tau=holdout.tau + torque(holdout), content="y")
-    found = diagnose(model, case.compiled, [train], [holdout])
-    assert {p.name for p in found.machine_changed} == moved, found.sentences
-    assert found.verdict == "cannot tell" and "machine differs" in found.sentences[0]
-    first = found.machine_changed[0]
-    assert f"{first.name}: {first.before:.4g} +- " in "\n".join(format_lines(found))
-    said = found.to_json()["machine_changed"][0]
+    result = diagnose(model, case.compiled, [train], [holdout])
+    assert {p.name for p in result.machine_changed} == moved, result.sentences
+    assert result.verdict == "cannot tell" and "machine differs" in result.sentences[0]
+    first = result.machine_changed[0]
+    assert f"{first.name}: {first.before:.4g} +- " in "\n".join(format_lines(result))
+    said = result.to_json()["machine_changed"][0]
     assert {"name", "before", "after", "sigma_before", "sigma_after", "unit"} <= set(said)
-    assert not any("generate" in line for line in suggest_after_diagnosis("m", ["a"], ["b"], found))
+    assert not any(
+        "generate" in line for line in suggest_after_diagnosis("m", ["a"], ["b"], result)
+    )

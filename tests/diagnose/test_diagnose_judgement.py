@@ -61,10 +61,10 @@ def test_a_joint_that_slides_has_no_lever_and_no_disc(case: Case) -> None:
     spec = dataclasses.replace(spec, joints=tuple(slides))
     motion = [np.random.default_rng(1).normal(size=(50, len(spec.joints)))]
     scales = compute_scales(spec, motion, motion, motion)
-    found = {c.key for c in list_candidates(spec, scales, {}, set(), StatedEffects())}
+    names = {c.key for c in list_candidates(spec, scales, {}, set(), StatedEffects())}
     turning = ("counterbalance", "constant_force_spring", "encoder_eccentricity")
-    assert not {(name, "2") for name in turning} & found
-    assert {("counterbalance", "1"), ("encoder_eccentricity", "3"), ("spring", "2")} <= found
+    assert not {(name, "2") for name in turning} & names
+    assert {("counterbalance", "1"), ("encoder_eccentricity", "3"), ("spring", "2")} <= names
 
 
 def test_signs_and_sizes_that_physics_forbids() -> None:
@@ -85,16 +85,16 @@ def test_of_motion_that_is_not_explained_at_all_nothing_can_be_told(error, said)
     time = np.linspace(0.0, 30.0, 3000)
     observation = SimpleNamespace(time=time, run=np.zeros(3000), logs=("a",))
     start = SimpleNamespace(y=[np.zeros(3000)], data=SimpleNamespace(observation=observation))
-    found = SimpleNamespace(start=start)
-    assert decide_verdict((), joint_left(error), found) == said  # type: ignore[arg-type]
+    result = SimpleNamespace(start=start)
+    assert decide_verdict((), joint_left(error), result) == said  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(("stiffness", "named"), [(2.0, "spring"), (-2.0, "counterbalance")])
 def test_of_two_that_explain_the_same_a_rare_sign_loses(stiffness: float, named: str) -> None:
     """A spring has fewer numbers than a lever, but pushes away from its rest in cables only."""
     drop = np.random.default_rng(2).uniform(0.5, 1.5, 40)
-    rivals = (("spring", stiffness), ("counterbalance", 1.0))
-    both = [at_its_best(name, 0.9, value, drop) for name, value in rivals]
+    others = (("spring", stiffness), ("counterbalance", 1.0))
+    both = [at_its_best(name, 0.9, value, drop) for name, value in others]
     best = select_best(None, both).best  # type: ignore[arg-type]
     assert best is not None and best.candidate.effect.id == named
 
@@ -165,9 +165,9 @@ def test_plain_friction_goes_before_what_refines_it(share: float, goes_first: bo
 )
 def test_laws_that_every_joint_has_have_no_finer_rivals(named: str, other: str, tie: bool) -> None:
     drop = np.random.default_rng(3).uniform(0.5, 1.5, 40)
-    best, rival = (at_its_best(name, 0.9, drop=drop) for name in (named, other))
+    best, alternative = (at_its_best(name, 0.9, drop=drop) for name in (named, other))
     nothing = RankedCandidates((), None)
-    assert select_alternatives(best, [rival], nothing) == ([rival] if tie else [])
+    assert select_alternatives(best, [alternative], nothing) == ([alternative] if tie else [])
 
 
 @pytest.mark.parametrize(
@@ -175,11 +175,11 @@ def test_laws_that_every_joint_has_have_no_finer_rivals(named: str, other: str, 
 )
 def test_what_is_doubted_gives_way_to_a_rival_that_explains_as_much(gain, share, taken):
     doubted = dataclasses.replace(at_its_best("elasticity", gain), reason="too heavy")
-    rival = search.RankedCandidates((), at_its_best("spring", share))
-    survey = SimpleNamespace(judge_candidates=lambda vetoed, tick: rival)
+    other = search.RankedCandidates((), at_its_best("spring", share))
+    survey = SimpleNamespace(judge_candidates=lambda vetoed, tick: other)
     for judged, gives_way in ((doubted, taken), (dataclasses.replace(doubted, reason=""), False)):
         instead = search._choose_alternative(survey, [], judged, SimpleNamespace(), print)  # type: ignore[arg-type]
-        assert instead is (rival if gives_way else None)
+        assert instead is (other if gives_way else None)
 
 
 def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
@@ -228,9 +228,9 @@ def test_an_effect_keeps_on_other_motion_what_it_promises(monkeypatch, after, ex
 
 
 @pytest.mark.parametrize(
-    ("left", "certain", "told"), [(0.4, False, 0), (0.6, False, 1), (0.4, True, 1)]
+    ("left", "certain", "text"), [(0.4, False, 0), (0.6, False, 1), (0.4, True, 1)]
 )
-def test_what_an_effect_explains_is_no_matter_of_the_channel(monkeypatch, left, certain, told):
+def test_what_an_effect_explains_is_no_matter_of_the_channel(monkeypatch, left, certain, text):
     for name in ("_check_position_delay", "_describe_delay_shift", "describe_data_problems"):
         monkeypatch.setattr(messages, name, lambda *a: [])
     data = SimpleNamespace(observation=SimpleNamespace(report=SimpleNamespace(collect_notes=list)))
@@ -239,7 +239,7 @@ def test_what_an_effect_explains_is_no_matter_of_the_channel(monkeypatch, left, 
     )
     faults = [DataWarning("torque 1 is 0.7 times the predicted", certain, joint=0)]
     search = SimpleNamespace(start=start, end=end)
-    assert len(messages.collect_warnings(None, search, None, faults)) == told  # type: ignore[arg-type]
+    assert len(messages.collect_warnings(None, search, None, faults)) == text  # type: ignore[arg-type]
 
 
 def test_what_gave_way_is_a_tie_of_what_explains_as_much() -> None:
@@ -252,8 +252,8 @@ def test_what_gave_way_is_a_tie_of_what_explains_as_much() -> None:
             ("payload", 0.5, ""),
         )
     ]
-    found = search._find_displaced_candidates(refused, at_its_best("spring", 0.5))
-    assert [judged.candidate.effect.id for judged in found] == ["counterbalance"]
+    matches = search._find_displaced_candidates(refused, at_its_best("spring", 0.5))
+    assert [judged.candidate.effect.id for judged in matches] == ["counterbalance"]
 
 
 @pytest.mark.parametrize(("before", "now", "again"), [(0.5, 0.8, True), (0.5, 0.7, False)])
@@ -262,6 +262,6 @@ def test_a_veto_is_asked_again_where_an_effect_leaves_half_as_much(before, now, 
     survey = CandidateScan(None, (), (better,))  # type: ignore[arg-type]
     mending = dataclasses.replace(at_its_best("stribeck", 0.2), values=-np.ones(1))
     refused = [at_its_best("spring", before), mending]
-    kept = survey.list_still_refused(refused)
-    assert (refused[0] not in kept) is again
-    assert mending in kept, "what only mends a law stays refused"
+    stored = survey.list_still_refused(refused)
+    assert (refused[0] not in stored) is again
+    assert mending in stored, "what only mends a law stays refused"

@@ -55,56 +55,58 @@ def stated_friction(found: Diagnosis) -> list[str]:
     ("torque", "joint", "tau"), [(LAG2, "2", 0.02), *rotating((LAG_ALL, None, 0.015))]
 )
 def test_a_filtered_torque_is_named_with_its_time(case, torque, joint, tau):
-    found = case.found(torque)
-    first = found.effects[0]
+    result = case.found(torque)
+    first = result.effects[0]
     assert (first.effect, first.joint, first.status) == ("torque_lag", joint, "confirmed")
     assert first.parameters["tau"] == pytest.approx(tau, rel=0.1)
     assert first.parameters[f"lag{joint or ''}"] == pytest.approx(1.0, abs=0.1)
     assert first.error_after < 0.3 * first.error_before
-    assert not stated_friction(found) and not found.addable_findings
+    assert not stated_friction(result) and not result.addable_findings
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_without_held_out_logs_too_and_ruled_out_it_is_no_friction(case: Case) -> None:
     model, train, _ = case.hidden(LAG2)
-    found = diagnose(model, case.compiled, [train])
-    assert (found.effects[0].effect, found.effects[0].status) == ("torque_lag", "confirmed")
-    assert not stated_friction(found)
-    found = case.found(LAG2, ("torque_lag",))
-    assert all(f.status != "confirmed" for f in found.effects), found.sentences
+    result = diagnose(model, case.compiled, [train])
+    assert (result.effects[0].effect, result.effects[0].status) == ("torque_lag", "confirmed")
+    assert not stated_friction(result)
+    result = case.found(LAG2, ("torque_lag",))
+    assert all(f.status != "confirmed" for f in result.effects), result.sentences
 
 
 @pytest.mark.rotating("long tests of diagnose")
 def test_a_pure_delay_is_no_filter(case: Case) -> None:
-    found = case.found(DELAY2)
-    assert all(f.status != "confirmed" for f in found.effects)
-    assert not stated_friction(found)
-    assert "a pure delay of 2" in found.sentences[0] and "describes it better" in found.sentences[0]
+    result = case.found(DELAY2)
+    assert all(f.status != "confirmed" for f in result.effects)
+    assert not stated_friction(result)
+    assert (
+        "a pure delay of 2" in result.sentences[0] and "describes it better" in result.sentences[0]
+    )
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_what_is_a_delay_or_a_filter_takes_no_place(case: Case) -> None:
     """Too short for these data to show: it is reported, and is in no model that judges others."""
     for how in (low_passed, late):
-        found = case.found(changed(how, 1, 0.004))
-        assert not stated_friction(found) and not found.addable_findings
-        assert all(step.candidate.effect.id != "torque_lag" for step in found.search.steps)
+        result = case.found(changed(how, 1, 0.004))
+        assert not stated_friction(result) and not result.addable_findings
+        assert all(step.candidate.effect.id != "torque_lag" for step in result.search.steps)
         assert any(
             "(torque_lag), joint 2" in line and "describes it as well" in line
-            for line in found.sentences
+            for line in result.sentences
         )
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_less_than_half_a_sample_is_no_effect(case: Case) -> None:
     step = float(np.median(np.diff(case.train.time)))
-    found = case.found(changed(low_passed, 0, 0.5 * THRESHOLDS.max_logger_delay * step))
-    assert not found.effects and found.verdict == "nothing significant"
+    result = case.found(changed(low_passed, 0, 0.5 * THRESHOLDS.max_logger_delay * step))
+    assert not result.effects and result.verdict == "nothing significant"
 
 
 def test_the_filter_is_exact_for_straight_lines() -> None:
     time = np.arange(200) * 0.01
     for tau in (0.002, 0.03):
-        told = apply_lag(time, 0.01, tau)
-        assert told == pytest.approx(time - tau * (1.0 - np.exp(-time / tau)), abs=1e-12)
+        value = apply_lag(time, 0.01, tau)
+        assert value == pytest.approx(time - tau * (1.0 - np.exp(-time / tau)), abs=1e-12)
     assert math.isclose(apply_lag(np.ones(5), 0.01, 0.02)[-1], 1.0)

@@ -44,10 +44,10 @@ def ur10e_model() -> IdentifiedModel:
 
 def test_emps_has_friction_that_differs_between_the_directions() -> None:
     """What the benchmark's authors found by hand, and the delay that others found."""
-    found = diagnosed("emps")
-    assert [f.effect for f in found.effects[:2]] == ["asymmetric_viscous", "time_delay"]
-    assert found.effects[0].parameters["Fva1"] == pytest.approx(-37.0, abs=3.0)
-    assert found.joints["1"].error_after < 0.031
+    result = diagnosed("emps")
+    assert [f.effect for f in result.effects[:2]] == ["asymmetric_viscous", "time_delay"]
+    assert result.effects[0].parameters["Fva1"] == pytest.approx(-37.0, abs=3.0)
+    assert result.joints["1"].error_after < 0.031
 
 
 @slow_rotating("measured logs are diagnosed")
@@ -67,9 +67,9 @@ def test_ur10e_the_errors_fall_as_effects_are_added(ur10e_model: IdentifiedModel
 
 @slow_rotating("measured logs are diagnosed")
 def test_ur10e_a_load_is_found_first_with_its_mass(ur10e_model: IdentifiedModel) -> None:
-    found = diagnose(ur10e_model, [DATA / "ur10e" / "ur-20_02_19_14harm50secLoad.parquet@:1912"])
-    assert found.effects[0].effect == "payload"
-    assert found.effects[0].parameters["mass"] == pytest.approx(2.805, rel=0.1)
+    result = diagnose(ur10e_model, [DATA / "ur10e" / "ur-20_02_19_14harm50secLoad.parquet@:1912"])
+    assert result.effects[0].effect == "payload"
+    assert result.effects[0].parameters["mass"] == pytest.approx(2.805, rel=0.1)
 
 
 @slow_rotating("measured logs are diagnosed")
@@ -78,9 +78,9 @@ def test_tx40_the_motor_of_joint_6_turns_joint_5_too() -> None:
     text = read_builtin_robot("tx40").partition("[coupling]")[0]
     coupled = 'coupled_inertia = ["6"]\ncoupled_friction = ["6"]'
     assert coupled in text
-    found = diagnosed("tx40", text.replace(coupled, ""))
-    named = {(f.effect, f.joint) for f in found.effects if f.status != "possible"}
+    result = diagnosed("tx40", text.replace(coupled, ""))
+    named = {(f.effect, f.joint) for f in result.effects if f.status != "possible"}
     assert ("coupled_friction", "6") in named
-    assert found.joints["5"].error_before > 1.0
-    after = {name: joint.error_after for name, joint in found.joints.items()}
+    assert result.joints["5"].error_before > 1.0
+    after = {name: joint.error_after for name, joint in result.joints.items()}
     assert after["2"] < 0.066 and after["3"] < 0.091 and after["4"] < 0.09 and after["5"] < 0.23

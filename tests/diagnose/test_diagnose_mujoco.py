@@ -107,5 +107,5 @@ def test_what_the_file_lacks_is_named_first(tmp_path, effect):
 
 @pytest.mark.rotating("long tests of diagnose")
 def test_nothing_is_named_where_nothing_lacks(tmp_path):
-    found = diagnosed(tmp_path, 1)
-    assert not found.effects, found.sentences
+    result = diagnosed(tmp_path, 1)
+    assert not result.effects, result.sentences

@@ -20,30 +20,30 @@ def shaking(log: Log, size: float = 5e-4) -> Log:
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_a_band_in_which_the_model_trembles_is_lowered_or_told(case: Case) -> None:
     """Where the user gave the cut-offs, they stay."""
-    log, given = shaking(case.train), Processing(position_cutoff=60.0, parallel_cutoff=25.0)
-    for processing, told in ((given, 1), (Processing(), 0)):
+    log, inputs = shaking(case.train), Processing(position_cutoff=60.0, parallel_cutoff=25.0)
+    for processing, text in ((inputs, 1), (Processing(), 0)):
         model = case.chain.fit([log], processing)
-        found = diagnose(model, case.compiled, [log], most=0)
-        lines = [line for line in found.data_warnings if "high-frequency" in line]
-        assert len(lines) == told
+        result = diagnose(model, case.compiled, [log], most=0)
+        lines = [line for line in result.data_warnings if "high-frequency" in line]
+        assert len(lines) == text
         assert all("position noise" in x and "--cutoff below" in x for x in lines)
-        assert (found.band == 25.0) if told else (found.band < 15.0)
+        assert (result.band == 25.0) if text else (result.band < 15.0)
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_noise_of_the_positions_is_nothing_systematic(case: Case) -> None:
     """It is in the columns of the model, and so in the residual: no function of the motion."""
-    log, holdout = (shaking(own, 1e-3) for own in (case.train, case.holdout))
-    found = diagnose(case.fitted(log), case.compiled, [log], [holdout], most=0)
-    assert found.verdict == "nothing significant"
-    assert not any(joint.is_unexplained for joint in found.joints.values())
+    log, holdout = (shaking(items, 1e-3) for items in (case.train, case.holdout))
+    result = diagnose(case.fitted(log), case.compiled, [log], [holdout], most=0)
+    assert result.verdict == "nothing significant"
+    assert not any(joint.is_unexplained for joint in result.joints.values())
 
 
 def test_positions_that_are_exact_are_looked_at_far_above_the_motion(case: Case) -> None:
     model = case.fitted(case.train)
     seen = analyse_logs(case.compiled, [case.train], model.processing)
     narrow = analyse_logs(case.compiled, [case.train], model.processing, 0.0)
-    wide, low = (own.report.processing for own in (seen, narrow))
+    wide, low = (item.report.processing for item in (seen, narrow))
     assert wide.parallel_cutoff > 1.5 * low.parallel_cutoff
     assert wide.position_cutoff >= 2.0 * wide.parallel_cutoff
     assert len(describe_bands(model.processing, wide)) == 1
@@ -61,7 +61,7 @@ def test_torques_without_any_friction_are_doubted(case: Case) -> None:
 
     fitted, train, _ = case.hidden(smooth)
     smoothly = diagnose(fitted, case.compiled, [train], most=0)
-    for found, told in ((smoothly, 1), (case.found(nothing), 0)):
-        assert sum("no joint rubs" in line for line in found.data_warnings) == told
-        ids = {effect.id for effect in found.search.catalogue}
-        assert ("load_friction" not in ids) is bool(told) and "time_delay" in ids
+    for result, text in ((smoothly, 1), (case.found(nothing), 0)):
+        assert sum("no joint rubs" in line for line in result.data_warnings) == text
+        ids = {effect.id for effect in result.search.catalogue}
+        assert ("load_friction" not in ids) is bool(text) and "time_delay" in ids

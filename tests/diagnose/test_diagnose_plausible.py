@@ -146,6 +146,6 @@ def test_an_arm_that_moves_in_a_plane_feels_a_tilt_in_it_alone(robot: str, axes:
     compiled = chain_of(robot).compiled
     links = np.random.default_rng(2).uniform(1.0, 2.0, len(compiled.spec.base))
     reference = SignalReference(compiled, links, 0.0, {})
-    found = compute_tilt_axes(reference)
-    assert len(found) == axes
-    np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0)
+    value = compute_tilt_axes(reference)
+    assert len(value) == axes
+    np.testing.assert_allclose(np.linalg.norm(value, axis=1), 1.0)

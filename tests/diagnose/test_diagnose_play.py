@@ -64,8 +64,8 @@ QUIET = (1.0, 1.0, 1.0)
 @pytest.mark.parametrize("others", [(), (column("spring", "3", 0.9),)])
 def test_bursts_name_play_alone_and_beside_others(monkeypatch, others):
     loud = (1.0, 12.0, 1.0)
-    found = searched(monkeypatch, loud, loud)
-    assert said(found, others) == [*((f.effect, f.joint) for f in others), ("backlash", "2")]
+    result = searched(monkeypatch, loud, loud)
+    assert said(result, others) == [*((f.effect, f.joint) for f in others), ("backlash", "2")]
     assert said(searched(monkeypatch, QUIET, (1.0, 10.0, 1.0)), others) == [
         (f.effect, f.joint) for f in others
     ]
@@ -81,27 +81,27 @@ def test_bursts_name_play_alone_and_beside_others(monkeypatch, others):
 def test_faint_bursts_count_where_the_column_of_play_explains_something(
     monkeypatch, ratio, column_of_play, beside, alone
 ):
-    found = searched(monkeypatch, QUIET, (1.0, ratio, 1.0), columns={1: column_of_play})
-    assert (("backlash", "2") in said(found)) is alone
-    assert (("backlash", "2") in said(found, [column("spring", "3", 0.9)])) is beside
+    result = searched(monkeypatch, QUIET, (1.0, ratio, 1.0), columns={1: column_of_play})
+    assert (("backlash", "2") in said(result)) is alone
+    assert (("backlash", "2") in said(result, [column("spring", "3", 0.9)])) is beside
 
 
 def test_knocks_without_rule_are_a_description_at_most(monkeypatch):
     knocks, columns = (0.0, 0.9, 0.0), {1: (0.1, 0.1, 5.0)}
-    found = searched(monkeypatch, QUIET, QUIET, knocks, columns)
-    (play,) = detect_events(found, None, ERRORS, falls(0.04), [])
+    result = searched(monkeypatch, QUIET, QUIET, knocks, columns)
+    (play,) = detect_events(result, None, ERRORS, falls(0.04), [])
     assert (play.effect, play.joint) == ("backlash", "2")
     assert "do not follow the sign of the load" in play.caveat
     assert "90 % of the residual energy" in play.evidence
     rings = column("elasticity", "3", 0.9)
-    assert said(found, [rings]) == [("elasticity", "3")], "what rings has impacts too"
+    assert said(result, [rings]) == [("elasticity", "3")], "what rings has impacts too"
 
 
 def test_the_joint_bursts_most_and_its_column_describes_most(monkeypatch):
     loud = (14.0, 52.0, 30.0)
     columns = {0: (0.5, 0.25, 9.0), 1: (0.4, 0.22, 9.0), 2: (0.1, 0.0, 9.0)}
-    found = searched(monkeypatch, loud, loud, columns=columns)
-    (play,) = detect_events(found, None, ERRORS, falls(0.04), [])
+    result = searched(monkeypatch, loud, loud, columns=columns)
+    (play,) = detect_events(result, None, ERRORS, falls(0.04), [])
     assert play.joint == "2"
     assert play.equivalents == (("backlash", "1"), ("backlash", "3"))
 
@@ -110,11 +110,11 @@ def test_play_whose_column_does_not_lower_the_error_is_no_fact(monkeypatch):
     """And what nobody knows is not reported as a number."""
     loud = (1.0, 52.0, 1.0)
     for columns, after in (({}, 0.04), ({1: (0.4, 0.2, 9.0)}, 0.05)):
-        found = searched(monkeypatch, loud, loud, columns=columns)
-        (play,) = detect_events(found, None, ERRORS, falls(after), [])
+        result = searched(monkeypatch, loud, loud, columns=columns)
+        (play,) = detect_events(result, None, ERRORS, falls(after), [])
         assert not play.is_confirmed and "no column of play" in play.caveat
         assert play.error_before == 0.05 and np.isnan([play.error_after, play.gain]).all()
-    (play,) = detect_events(found, None, ERRORS, falls(0.04), [])
+    (play,) = detect_events(result, None, ERRORS, falls(0.04), [])
     assert play.status == "confirmed" and (play.error_before, play.error_after) == (0.05, 0.04)
     assert "error 5 % -> 4 %" in play.evidence
 
@@ -127,9 +127,9 @@ def test_play_whose_column_does_not_lower_the_error_is_no_fact(monkeypatch):
     ],
 )
 def test_play_stands_where_a_weak_column_says_less(monkeypatch, end, effect, joint, weak):
-    found = searched(monkeypatch, (1.0, 40.0, 1.0), end)
-    assert said(found, [column(effect, joint, 0.2)]) == [(weak, "2")]
-    assert said(found, [column(effect, joint, 0.9)])[0] == (effect, joint)
+    result = searched(monkeypatch, (1.0, 40.0, 1.0), end)
+    assert said(result, [column(effect, joint, 0.2)]) == [(weak, "2")]
+    assert said(result, [column(effect, joint, 0.9)])[0] == (effect, joint)
 
 
 @pytest.mark.rotating("long tests of diagnose")
@@ -148,9 +148,9 @@ def test_play_is_found_beside_a_spring_in_simulated_runs(case: Case) -> None:
         return on_joint(log, 0, knocks) + on_joint(log, 2, 1.5 * q[:, 2])
 
     model, train, holdout = case.hidden(torque)
-    found = diagnose(model, case.compiled, [train], [holdout])
-    assert {(f.effect, f.joint) for f in found.effects} == {("backlash", "1"), ("spring", "3")}
-    picture = draw_play_picture(found.search.end, 0)
+    result = diagnose(model, case.compiled, [train], [holdout])
+    assert {(f.effect, f.joint) for f in result.effects} == {("backlash", "1"), ("spring", "3")}
+    picture = draw_play_picture(result.search.end, 0)
     ((panel,),) = picture.panels
     means = panel.series[1]
     near, far = (means.y[(np.abs(means.x) < 0.05) == inside].mean() for inside in (True, False))

@@ -41,14 +41,14 @@ def fitted(values, seed, hidden=(), uncertainty=None):
 @pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_with_link_data_a_counterbalance_is_named(seed):
     machine, model, *logs = fitted(NOMINAL, seed, (BALANCE,), {"inertial": 0.1})
-    found = diagnose(model, *logs)
-    assert (found.effects[0].effect, found.effects[0].joint) == ("counterbalance", "2")
-    assert found.effects[0].error_after < 0.2 * found.effects[0].error_before
-    assert not any(LINE in line for line in found.sentences)
+    result = diagnose(model, *logs)
+    assert (result.effects[0].effect, result.effects[0].joint) == ("counterbalance", "2")
+    assert result.effects[0].error_after < 0.2 * result.effects[0].error_before
+    assert not any(LINE in line for line in result.sentences)
     assert any("link 2: the data contradict" in line for line in model.fit.verdict.warnings)
     compiled = load_module(model.spec, model.sources)
     read = LogSplit(*(read_logs(compiled, some) for some in logs))
-    named, _ = add_findings(model, compiled, found.effects, read)
+    named, _ = add_findings(model, compiled, result.effects, read)
     for better in (add(model, "counterbalance", *logs, "2"), named):
         assert [step.effect for step in better.history] == ["", "counterbalance"]
         assert better.history[-1].is_improvement and not better.fit.prior_conflicts
@@ -69,6 +69,6 @@ def test_a_true_machine_lacks_nothing_and_free_inertias_look_like_gravity(
     values, seed, uncertainty
 ):
     _, model, *logs = fitted(values, seed, (), uncertainty)
-    found = diagnose(model, *logs)
-    assert found.verdict == "nothing significant" and not model.fit.prior_conflicts
-    assert any(line.startswith(LINE) for line in found.sentences) is (not values)
+    result = diagnose(model, *logs)
+    assert result.verdict == "nothing significant" and not model.fit.prior_conflicts
+    assert any(line.startswith(LINE) for line in result.sentences) is (not values)

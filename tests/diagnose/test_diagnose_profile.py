@@ -94,21 +94,21 @@ def test_the_truth_is_where_the_interval_says(effect):
 def test_a_narrow_likelihood_gives_the_delta_method():
     # g(theta) linear, S(theta) quadratic: var g = s^2 + (dg/dtheta)^2 var theta.
     along, _ = found("stribeck@2", 902)
-    told = along.reported_point.nonlinear_parameters
+    text = along.reported_point.nonlinear_parameters
     near = [
         (p, r)
         for p, r in zip(along.points, along.squares_rise, strict=True)
-        if p.nonlinear_parameters["d"] == told["d"] and r < 9.0
+        if p.nonlinear_parameters["d"] == text["d"] and r < 9.0
     ]
     x = np.log([p.nonlinear_parameters["vs"] for p, _ in near])
     rise = np.array([r for _, r in near])
     g = np.array([p.values[0] for p, _ in near])
     curvature = np.polyfit(x, rise, 2)[0]
     slope = np.polyfit(x, g, 1)[0]
-    own = along.reported_point.deviations[0] * along.factor[0]
-    delta = np.sqrt(own**2 + slope**2 / curvature)
+    actual = along.reported_point.deviations[0] * along.factor[0]
+    delta = np.sqrt(actual**2 + slope**2 / curvature)
     assert along.compute_deviations()[0] == pytest.approx(delta, rel=0.3)
-    assert along.compute_deviations()[0] > 1.15 * own  # the shape counts
+    assert along.compute_deviations()[0] > 1.15 * actual  # the shape counts
     low, high = along.compute_intervals()[0]
     assert high - low == pytest.approx(2.0 * 1.96 * delta, rel=0.3)
 
@@ -127,9 +127,9 @@ def test_what_is_added_is_stored_and_told_with_it(tmp_path):
     assert list(step.nonlinear_intervals["d"]) == [1.0, 2.0]
     low, high = step.nonlinear_intervals["vs"]
     assert low < truth["speed"] < high
-    told = describe_last_addition(better)
-    assert told[0].startswith("Fst2 = ") and (" to " in told[0] or "+-" in told[0])
-    assert "d = " in told[-1] and "(1 to 2)" in told[-1]
+    text = describe_last_addition(better)
+    assert text[0].startswith("Fst2 = ") and (" to " in text[0] or "+-" in text[0])
+    assert "d = " in text[-1] and "(1 to 2)" in text[-1]
     save_model(tmp_path / "m.json", better)
     again = load_model(tmp_path / "m.json")
     assert again.fit.parameters == better.fit.parameters

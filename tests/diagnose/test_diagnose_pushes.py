@@ -29,9 +29,9 @@ def pushed(*windows: tuple[float, float], size: float = 1.0):
 def once(torque, case: Case, **options):
     """Only the training run has it."""
     model, train, _ = case.hidden(torque)
-    found = diagnose(model, case.compiled, [train], [case.holdout], **options)
-    check_gains(found)
-    return found
+    result = diagnose(model, case.compiled, [train], [case.holdout], **options)
+    check_gains(result)
+    return result
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
@@ -73,8 +73,8 @@ def test_a_push_whose_torque_changes_its_sign_is_one_push(case: Case, tmp_path: 
 @pytest.mark.parametrize("again", [(18.0, 19.0), ()], ids=["acts again", "is ruled out"])
 def test_no_push_is_named_that(case: Case, again: tuple[float, ...]) -> None:
     windows = [(6.0, 7.0), (12.0, 13.0), again] if again else [(12.0, 13.0)]
-    found = once(pushed(*windows, size=4.0), case, without=() if again else ("external_force",))
-    assert "external_force" not in {f.effect for f in found.effects}
+    result = once(pushed(*windows, size=4.0), case, without=() if again else ("external_force",))
+    assert "external_force" not in {f.effect for f in result.effects}
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")
@@ -118,8 +118,8 @@ def slower(log: Log, every: int, late: float) -> Log:
     """Every so many rows, with torques that come late by so many s."""
     tau = np.column_stack([np.interp(log.time - late, log.time, t) for t in log.tau.T])
     rows = {"time": log.time, "q": log.q, "tau": tau, "commanded": log.commanded}
-    kept = {name: values[::every] for name, values in rows.items() if values is not None}
-    return dataclasses.replace(log, qd=None, qdd=None, extra={}, **kept)
+    rest = {name: values[::every] for name, values in rows.items() if values is not None}
+    return dataclasses.replace(log, qd=None, qdd=None, extra={}, **rest)
 
 
 @pytest.mark.rotating("long tests of diagnose")
@@ -159,6 +159,6 @@ def test_a_declared_coupling_is_the_one_that_is_tried(case: Case) -> None:
     motors = [np.random.default_rng(1).normal(size=(50, len(spec.joints)))]
     effect = find_effect("coupled_friction")
     known = StatedEffects([effect], {"3": {"2": 0.5, "3": 1.0}})
-    found = list_candidates(spec, compute_scales(spec, motors, motors, motors), {}, set(), known)
-    assert [(c.joint, c.coupling) for c in found if c.joint == "3"] == [("3", {1: 0.5, 2: 1.0})]
-    assert {c.nonlinear_parameters["c"] for c in found if c.joint == "2"} == {1.0, -1.0}
+    result = list_candidates(spec, compute_scales(spec, motors, motors, motors), {}, set(), known)
+    assert [(c.joint, c.coupling) for c in result if c.joint == "3"] == [("3", {1: 0.5, 2: 1.0})]
+    assert {c.nonlinear_parameters["c"] for c in result if c.joint == "2"} == {1.0, -1.0}

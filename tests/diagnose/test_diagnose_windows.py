@@ -55,7 +55,7 @@ def test_logs_are_mended_once_for_any_filters(arm, log) -> None:
     for cutoff in (15.0, 25.0):
         processing = Processing(position_cutoff=40.0, parallel_cutoff=cutoff)
         shared, alone = (
-            analyse_logs(arm, [log], processing, repair=own) for own in (mending, None)
+            analyse_logs(arm, [log], processing, repair=items) for items in (mending, None)
         )
         np.testing.assert_array_equal(shared.torque, alone.torque)
         np.testing.assert_array_equal(shared.qdd, alone.qdd)
@@ -95,7 +95,7 @@ def test_samples_that_the_band_has_no_use_for_are_let_go(arm, log) -> None:
     assert left.segment.samples < 0.3 * part.segment.samples
     assert left.segment.logged_step == pytest.approx(part.segment.step)
     assert all(x is y for x, y in zip(thin_samples(few, arm).stretches, few.stretches, strict=True))
-    one, other = (SearchData(arm, own).rows for own in (whole, few))
+    one, other = (SearchData(arm, items).rows for items in (whole, few))
     for name in ("y", "W", "time", "segment"):
         np.testing.assert_equal(getattr(one, name), getattr(other, name))
 

@@ -58,8 +58,8 @@ def test_the_commands_of_every_effect_parse(effect: Effect) -> None:
     *(pytest.param(e.id, marks=ROTATING) for e in CATALOGUE if e.id not in QUICK),
 )
 def test_an_effect_has_its_page(name: str) -> None:
-    found = made(name)
-    effect, page = found.effect, found.page
+    result = made(name)
+    effect, page = result.effect, result.page
     assert page.startswith(f"# {effect.title[0].upper()}") and f"`{name}`" in page
     assert code_blocks(page, "text")[0].strip() == effect.equation
     for column in effect.columns if effect.acts.name in ("JOINT", "MOTOR", "POSITION") else ():
@@ -68,10 +68,10 @@ def test_an_effect_has_its_page(name: str) -> None:
         assert words.split(";")[0].split("_")[0].split("|")[0].split("*")[0] in page
     assert effect.confounders[1:].split("(")[0] in page
     if name not in HIDDEN:
-        assert found.picture is None and "Nothing simulates" in page
+        assert result.picture is None and "Nothing simulates" in page
         return
-    assert found.picture is not None and found.thumbnail is not None
-    assert size(found.picture)[0] > 900 and size(found.thumbnail)[0] < 500
+    assert result.picture is not None and result.thumbnail is not None
+    assert size(result.picture)[0] > 900 and size(result.thumbnail)[0] < 500
     assert f"]({name}.png)" in page
     verdict = code_blocks(page, "text")[1]
     assert name in verdict, "the diagnosis names something else"

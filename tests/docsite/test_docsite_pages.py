@@ -90,22 +90,24 @@ def test_the_interface_has_every_name_once() -> None:
 
 
 def test_an_exhibit_says_what_the_robot_has() -> None:
-    found, derivation = exhibit("scara"), derive(load("scara"))
+    result, derivation = exhibit("scara"), derive(load("scara"))
     emitted = generate(derivation)
-    assert found.picture.startswith(b"\x89PNG")
+    assert result.picture.startswith(b"\x89PNG")
     assert exhibit("emps").page.startswith("# emps\n\n**EMPS, one prismatic axis")
-    assert (found.joints, found.base) == (4, derivation.base.rank)
+    assert (result.joints, result.base) == (4, derivation.base.rank)
     sources = [text for name, text in emitted.files.items() if name[-2:] in (".c", ".h")]
-    assert found.lines == sum(len(text.splitlines()) for text in sources)
-    assert f"{found.lines} lines, {sum(len(text.encode()) for text in sources)} bytes" in found.page
+    assert result.lines == sum(len(text.splitlines()) for text in sources)
+    assert (
+        f"{result.lines} lines, {sum(len(text.encode()) for text in sources)} bytes" in result.page
+    )
     for function in emitted.spec.functions:
         row = f"| `{function.name}` | {function.additions} | {function.multiplications} |"
-        assert row in found.page
+        assert row in result.page
     for parameter in derivation.base.parameters:
-        assert f"| {parameter.name} | " in found.page
-    assert "| `3` | `2` | `1` | `D3` | `0` | `q3` |" in found.page
-    index = gallery_index([found])
-    assert "[scara](scara.md)" in index and f"| 4 | {found.base} | {found.lines} |" in index
+        assert f"| {parameter.name} | " in result.page
+    assert "| `3` | `2` | `1` | `D3` | `0` | `q3` |" in result.page
+    index = gallery_index([result])
+    assert "[scara](scara.md)" in index and f"| 4 | {result.base} | {result.lines} |" in index
 
 
 @pytest.mark.rotating("pages of the site")
@@ -120,8 +122,8 @@ def test_signs_of_markdown_are_escaped() -> None:
     assert cell("a_b [x] <joint> |a| & *") == r"a\_b \[x\] &lt;joint> \|a\| &amp; \*"
     assert code("a|b") == r"`a\|b`" and code("") == ""
     assert table(("a", "b"), [("1", "2")]) == "| a | b |\n| --- | --- |\n| 1 | 2 |\n"
-    found = fenced('First.\n\n>>> a["1"]\n[1, 2]\n\nArgs:\n    a: b')  # no links in brackets
-    assert found == 'First.\n\n```python\n>>> a["1"]\n[1, 2]\n```\n\nArgs:\n    a: b'
+    result = fenced('First.\n\n>>> a["1"]\n[1, 2]\n\nArgs:\n    a: b')  # no links in brackets
+    assert result == 'First.\n\n```python\n>>> a["1"]\n[1, 2]\n```\n\nArgs:\n    a: b'
     assert fenced(">>> 1\n1") == "```python\n>>> 1\n1\n```" and fenced("None.") == "None."
 
 

@@ -45,10 +45,10 @@ def estimated(W, V, joint):
 
 
 def test_without_noise_gains_and_parameters_are_exact():
-    found = estimated(*drawn(1, 0.0))
-    np.testing.assert_allclose(found.gains, TRUE, rtol=1e-9)
-    np.testing.assert_allclose(found.beta, [1.0, -0.7, 2.0, 0.5, 1.0], rtol=1e-9)
-    assert found.gap > 1e6
+    fit = estimated(*drawn(1, 0.0))
+    np.testing.assert_allclose(fit.gains, TRUE, rtol=1e-9)
+    np.testing.assert_allclose(fit.beta, [1.0, -0.7, 2.0, 0.5, 1.0], rtol=1e-9)
+    assert fit.gap > 1e6
 
 
 def test_the_units_of_the_drives_do_not_matter_and_the_load_must_be_told():
@@ -64,16 +64,16 @@ def test_the_units_of_the_drives_do_not_matter_and_the_load_must_be_told():
 def test_it_is_the_estimate_of_greatest_likelihood():
     """V = (W beta + w) / g + noise, solved by another program as the nonlinear problem it is."""
     W, V, joint = drawn(3, 0.3)
-    found = estimated(W, V, joint)
-    spread = (found.sigma / found.gains)[joint]  # of V
+    fit = estimated(W, V, joint)
+    spread = (fit.sigma / fit.gains)[joint]  # of V
 
     def residual(x):
         return (V - (W[:, :4] @ x[3:] + W[:, 4]) / x[joint]) / spread
 
     start = np.concatenate([TRUE, [1.0, -0.7, 2.0, 0.5]])
     other = nonlinear(residual, start, x_scale=np.abs(start), xtol=1e-14, ftol=1e-14, gtol=1e-12)
-    sigma = np.sqrt(np.diag(found.covariance))[:7]
-    both = np.concatenate([found.gains, found.beta[:4]])
+    sigma = np.sqrt(np.diag(fit.covariance))[:7]
+    both = np.concatenate([fit.gains, fit.beta[:4]])
     assert np.all(np.abs(both - other.x) < 0.02 * sigma)  # degrees of freedom are counted nearly
     np.testing.assert_allclose(
         sigma, np.sqrt(np.diag(np.linalg.inv(other.jac.T @ other.jac))), rtol=1e-3
@@ -83,9 +83,9 @@ def test_it_is_the_estimate_of_greatest_likelihood():
 def test_standard_deviations_are_those_of_many_draws():
     z = []
     for seed in range(50):
-        found = estimated(*drawn(seed, 1.0))
-        sigma = np.sqrt(np.diag(found.covariance))[:7]
-        z.append((np.append(found.gains, found.beta[:4]) - [*TRUE, 1.0, -0.7, 2.0, 0.5]) / sigma)
+        fit = estimated(*drawn(seed, 1.0))
+        sigma = np.sqrt(np.diag(fit.covariance))[:7]
+        z.append((np.append(fit.gains, fit.beta[:4]) - [*TRUE, 1.0, -0.7, 2.0, 0.5]) / sigma)
     rms = np.sqrt(np.mean(np.square(z), axis=0))
     assert np.all((rms > 0.8) & (rms < 1.2))
     assert np.all(np.abs(np.mean(z, axis=0)) < 0.35)
@@ -107,9 +107,9 @@ def test_noisy_runs_of_an_arm_spread_as_the_sigmas_say(arm):
 
 @pytest.mark.rotating("long tests of drive_gains")
 def test_gains_and_parameters_of_an_arm(arm):
-    found = identify_gains(arm.compiled, arm.seen(TRUE), [arm.payload()])
-    np.testing.assert_allclose([*found.gains.values()], TRUE, rtol=0.01)
-    fit = found.result
+    estimate = identify_gains(arm.compiled, arm.seen(TRUE), [arm.payload()])
+    np.testing.assert_allclose([*estimate.gains.values()], TRUE, rtol=0.01)
+    fit = estimate.result
     assert [g.name for g in fit.gains] == ["g_tau1", "g_tau2", "g_tau3"]
     assert all(g.unit == "N m/unit" and 0.0 < g.sigma < 0.01 * g.value for g in fit.gains)
     assert fit.method == "tls" and fit.relative_error < 0.01
@@ -219,19 +219,19 @@ def test_a_real_arm_has_one_set_of_gains_and_a_load_that_was_turned(measured_fol
     seen = observe(compiled, logs)
     with pytest.raises(DataError, match=r"no gap.*disagree about where it sits: MY6"):
         identify_gains(compiled, seen, [both])
-    found = identify_gains(compiled, seen, separate_payload(both)).result
-    moments = {p.name: p.value for p in found.loads}
+    result = identify_gains(compiled, seen, separate_payload(both)).result
+    moments = {p.name: p.value for p in result.loads}
     assert moments["MY6_load1"] == pytest.approx(-moments["MY6_load2"], rel=0.1)
     assert moments["MZ6_load1"] == pytest.approx(moments["MZ6_load2"], rel=0.2)
-    assert found.relative_error < 0.05
+    assert result.relative_error < 0.05
 
 
 def test_a_load_that_sat_alike_is_not_said_to_have_moved(arm):
     first, second = arm.logs(np.ones(3), 0.02, 0)
     half = len(second.time) // 2
     parts = []
-    for name, own in (("one", slice(None, half)), ("two", slice(half, None))):
-        rows = {key: getattr(second, key)[own] for key in ("time", "q", "tau")}
+    for name, items in (("one", slice(None, half)), ("two", slice(half, None))):
+        rows = {key: getattr(second, key)[items] for key in ("time", "q", "tau")}
         parts.append(replace(second, name=name, **rows))
     seen = observe(arm.compiled, [first, *parts])
     assert find_heterogeneous_logs(arm.compiled, seen, [Payload(("one", "two"))]) == []
@@ -244,8 +244,8 @@ def test_a_robot_with_loops_carries_its_load_on_its_last_moving_row():
     assert (
         check_known_quantities(runs.compiled, runs.seen(np.ones(2)), [runs.payload()], True) == []
     )
-    found = identify_gains(runs.compiled, runs.seen(np.array([3.0, 0.2])), [runs.payload()])
-    np.testing.assert_allclose([*found.gains.values()], [3.0, 0.2], rtol=0.01)
+    fit = identify_gains(runs.compiled, runs.seen(np.array([3.0, 0.2])), [runs.payload()])
+    np.testing.assert_allclose([*fit.gains.values()], [3.0, 0.2], rtol=0.01)
 
 
 def test_gains_in_one_line_stay_there():
@@ -257,11 +257,11 @@ def test_gains_in_one_line_stay_there():
 @pytest.mark.parametrize("stated", [True, pytest.param(False, marks=pytest.mark.rotating)])
 def test_a_negative_gain_is_called_negative(arm, stated):
     """The current of joint 2 is logged with the other sign."""
-    found = identify_gains(arm.compiled, arm.seen(TRUE * [1.0, -1.0, 1.0]), [arm.payload()])
+    fit = identify_gains(arm.compiled, arm.seen(TRUE * [1.0, -1.0, 1.0]), [arm.payload()])
     spec = arm.compiled.spec
     if not stated:
         spec = replace(spec, joints=tuple(replace(j, drive_gain=None) for j in spec.joints))
-    (line,) = (line for line in describe_deviations(spec, found) if line.startswith("joint 2 "))
+    (line,) = (line for line in describe_deviations(spec, fit) if line.startswith("joint 2 "))
     assert ("of the other sign than 1" if stated else "negative") in line
     assert "current2 or q2 has the wrong sign" in line and "sign = -1" in line
     assert "below" not in line and "%" not in line

@@ -160,8 +160,8 @@ def test_robots_with_loops_take_effects_of_motion_only() -> None:
     """They say which effects have no C there."""
 
     def with_column(equation: str) -> Robot:
-        own = define_effect(load("five-bar"), "own", columns={"Kv": equation}).text
-        text = replace_reference(insert_effect(own, "own", "11", {}), {"ZZ11": 0.2})
+        local = define_effect(load("five-bar"), "own", columns={"Kv": equation}).text
+        text = replace_reference(insert_effect(local, "own", "11", {}), {"ZZ11": 0.2})
         return parse_robot_text(text, "five-bar")
 
     for equation in ("v*static", "t"):

@@ -35,15 +35,19 @@ def test_merged_triangles_have_the_singular_values_of_all_rows():
     y = W @ rng.standard_normal(len(names)) + 1e-3 * rng.standard_normal(count)
     joint = np.arange(count) % 2
     pieces = np.split(np.arange(count), [3, 4, 4, 150])
-    parts = [least_squares.compress_rows(W[own], y[own], joint[own], 2, names) for own in pieces]
-    found = reduce(least_squares.merge_compressed, parts)
-    assert found.rows.tolist() == [200, 200]
+    parts = [
+        least_squares.compress_rows(W[item], y[item], joint[item], 2, names) for item in pieces
+    ]
+    result = reduce(least_squares.merge_compressed, parts)
+    assert result.rows.tolist() == [200, 200]
     for j in range(2):
         stacked = np.column_stack([W, y])[joint == j]
         norm = np.linalg.norm(stacked)
-        own = found.triangles[j]
-        assert np.allclose(own, np.triu(own))
+        actual = result.triangles[j]
+        assert np.allclose(actual, np.triu(actual))
         # The squares of 1e-10 are lost in W^T W beside 1; they are kept here.
-        difference = np.linalg.svd(own, compute_uv=False) - np.linalg.svd(stacked, compute_uv=False)
+        difference = np.linalg.svd(actual, compute_uv=False) - np.linalg.svd(
+            stacked, compute_uv=False
+        )
         assert np.abs(difference).max() < 1e-14 * norm
-        assert np.abs(own.T @ own - stacked.T @ stacked).max() < 1e-14 * norm**2
+        assert np.abs(actual.T @ actual - stacked.T @ stacked).max() < 1e-14 * norm**2

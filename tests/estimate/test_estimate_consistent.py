@@ -50,17 +50,17 @@ def test_pinocchio_gives_the_same_torques(name):
 
     rng = np.random.default_rng(2)
     model, whole, _ = rows_of(name, rng, 60, 0.2)
-    found = solve_consistent(define_physical_parameters(model.spec), whole, {})
+    fit = solve_consistent(define_physical_parameters(model.spec), whole, {})
     robot = read_robot(name)
     theirs, ids = pinocchio_model(robot)
     for joint, index in zip(robot.moving_joints, ids, strict=True):
-        theirs.inertias[index] = pin.Inertia(*about_centre(found.bodies[joint.name]))
+        theirs.inertias[index] = pin.Inertia(*about_centre(fit.bodies[joint.name]))
         assert np.linalg.eigvalsh(theirs.inertias[index].inertia)[0] > 0.0
     data = theirs.createData()
     for _ in range(5):
         q, qd, qdd = rng.uniform(-1.0, 1.0, (3, 1, len(ids)))
         expected = pin.rnea(theirs, data, q[0], qd[0], qdd[0])
-        chi = found.chi[: len(model.spec.standard)].copy()
+        chi = fit.chi[: len(model.spec.standard)].copy()
         chi[[p.effect != "rigid_body" for p in model.spec.standard]] = 0.0
         tau = model.inverse_dynamics(q, qd, qdd, model.base_parameters(chi))[0]
         np.testing.assert_allclose(tau, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
@@ -81,8 +81,8 @@ def test_mujoco_takes_the_bodies_and_gives_the_same_torques():
     sigma = 0.2 * np.sqrt(np.mean(y**2))
     y = y + sigma * rng.normal(size=150)
     whole = np.linalg.qr(np.column_stack([W, y]) / sigma, mode="r")
-    found = solve_consistent(define_physical_parameters(model.spec), whole, {})
-    bodies = [Body(*about_centre(body)) for body in found.bodies.values()]
+    fit = solve_consistent(define_physical_parameters(model.spec), whole, {})
+    bodies = [Body(*about_centre(body)) for body in fit.bodies.values()]
     nothing = np.zeros(3)
     theirs = mujoco.MjModel.from_xml_string(
         mjcf(Arm(arm.table, tuple(bodies), nothing, nothing, nothing))
@@ -93,7 +93,7 @@ def test_mujoco_takes_the_bodies_and_gives_the_same_torques():
         data.qpos, data.qvel, data.qacc = q[k], qd[k], qdd[k]
         mujoco.mj_inverse(theirs, data)
         expected = np.array(data.qfrc_inverse)
-        tau = model.inverse_dynamics(*(x[k : k + 1] for x in (q, qd, qdd)), found.beta)[0]
+        tau = model.inverse_dynamics(*(x[k : k + 1] for x in (q, qd, qdd)), fit.beta)[0]
         np.testing.assert_allclose(tau, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
 
 
@@ -102,9 +102,9 @@ def test_values_that_the_data_tell_keep_their_least_squares_and_sigma():
     errors = []
     for seed in range(6):
         model, whole, beta = rows_of("two-link", np.random.default_rng(seed), 200, 0.02)
-        found = solve_consistent(define_physical_parameters(model.spec), whole, {})
-        assert found.zero_parameters or found.excess_squares < 0.1
-        errors.append((found.beta - beta) / np.sqrt(np.diag(found.covariance)))
+        fit = solve_consistent(define_physical_parameters(model.spec), whole, {})
+        assert fit.zero_parameters or fit.excess_squares < 0.1
+        errors.append((fit.beta - beta) / np.sqrt(np.diag(fit.covariance)))
     assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(1.0, abs=0.2)
 
 
@@ -124,9 +124,9 @@ def test_sigmas_of_links_at_the_bound_are_what_repetition_shows():
         sigma = 0.015 * np.sqrt(np.mean(tau**2, axis=0))
         rows = np.dstack([W, tau + sigma * rng.normal(size=tau.shape)]) / sigma[:, None]
         whole = np.linalg.qr(rows.reshape(900, -1), mode="r")
-        found = solve_consistent(define_physical_parameters(model.spec), whole, {})
-        assert found.bounded_links
-        z.append((found.beta - beta) / np.sqrt(np.diag(found.covariance)))
+        fit = solve_consistent(define_physical_parameters(model.spec), whole, {})
+        assert fit.bounded_links
+        z.append((fit.beta - beta) / np.sqrt(np.diag(fit.covariance)))
     assert np.abs(z).max() < 4.0 and 0.6 < np.sqrt(np.mean(np.square(z))) < 1.1
 
 
@@ -134,12 +134,12 @@ def test_no_machine_nearby_is_better():
     model, whole, _ = rows_of("two-link", np.random.default_rng(5), 30, 0.5, wide=0.3)
     machine = define_physical_parameters(model.spec)
     reference = {name: cloud(np.random.default_rng(6)) for name in machine.links}
-    found = solve_consistent(machine, whole, reference)
+    fit = solve_consistent(machine, whole, reference)
 
     def cost(bodies, others):
         chi = others.copy()
-        for name, own in machine.links.items():
-            chi[own] = extract_parameters(bodies[name])
+        for name, item in machine.links.items():
+            chi[item] = extract_parameters(bodies[name])
         error = whole[:, :-1] @ machine.K @ chi - whole[:, -1]
         total = 0.5 * error @ error
         for name, P in bodies.items():
@@ -149,14 +149,14 @@ def test_no_machine_nearby_is_better():
             )
         return total
 
-    least, rng = cost(found.bodies, found.chi), np.random.default_rng(7)
+    least, rng = cost(fit.bodies, fit.chi), np.random.default_rng(7)
     for step in (1e-3, 1e-2, 0.1):
         for _ in range(20):
-            others = found.chi.copy()
+            others = fit.chi.copy()
             for place in machine.positive.values():
                 others[place] = max(0.0, others[place] + step * rng.normal())
             bodies = {}
-            for name, P in found.bodies.items():
+            for name, P in fit.bodies.items():
                 root = np.linalg.cholesky(P)
                 turn = np.eye(4) + step * rng.normal(size=(4, 4))
                 bodies[name] = root @ turn @ turn.T @ root.T

@@ -71,9 +71,9 @@ def base_values(model, chi):
 
 
 def test_the_posterior_is_bayes_rule_on_all_standard_parameters(model):
-    found, white, data = estimated_beside(model, 3, true_chi(3), noise=5.0)
+    fit, white, data = estimated_beside(model, 3, true_chi(3), noise=5.0)
     phi, _, y, joint = rows(model, 3, true_chi(3), noise=5.0)
-    assert not found.contradicted
+    assert not fit.contradicted
     prior, names = build_prior(model.spec), [p.name for p in model.spec.standard]
     count = len(names)
     # free parameters: a flat prior; held: an all but certain one
@@ -84,25 +84,25 @@ def test_the_posterior_is_bayes_rule_on_all_standard_parameters(model):
     information = weighted.T @ weighted + np.linalg.inv(S)
     right = weighted.T @ (y / white.sigma[joint]) + np.linalg.solve(S, prior.mean[:count])
     K = prior.K[:, :count]
-    np.testing.assert_allclose(found.beta, K @ np.linalg.solve(information, right), rtol=1e-4)
+    np.testing.assert_allclose(fit.beta, K @ np.linalg.solve(information, right), rtol=1e-4)
     sigma = np.sqrt(np.diag(K @ np.linalg.solve(information, K.T)))
-    told = np.array([name != "Fv3" for name in prior.names])
-    np.testing.assert_allclose(np.sqrt(np.diag(found.covariance))[told], sigma[told], rtol=1e-3)
+    value = np.array([name != "Fv3" for name in prior.names])
+    np.testing.assert_allclose(np.sqrt(np.diag(fit.covariance))[value], sigma[value], rtol=1e-3)
     # what halves disagree about stays in the standard deviations and moves no value
     more = 30.0 * np.diag(white.covariance)
     raised = prior.combine_with_data(white, data, white.covariance, more)
-    np.testing.assert_allclose(raised.beta, found.beta, rtol=1e-6)
-    assert np.all(np.diag(raised.covariance)[told] >= more[told])
+    np.testing.assert_allclose(raised.beta, fit.beta, rtol=1e-6)
+    assert np.all(np.diag(raised.covariance)[value] >= more[value])
 
 
 def test_z_scores_are_those_of_the_prior_and_the_noise(model):
     z = []
     for seed in range(30):
         chi = true_chi(seed)
-        found, *_ = estimated_beside(model, seed, chi, noise=5.0)
+        fit, *_ = estimated_beside(model, seed, chi, noise=5.0)
         free = np.array([name != "Fv3" for name in build_prior(model.spec).names])
-        apart = found.beta - base_values(model, chi)
-        z.append((apart / np.sqrt(np.diag(found.covariance)))[free])
+        apart = fit.beta - base_values(model, chi)
+        z.append((apart / np.sqrt(np.diag(fit.covariance)))[free])
     assert 0.9 < np.sqrt(np.mean(np.square(z))) < 1.1
     assert 0.93 < np.mean(np.abs(z) < 1.96) < 0.97
 
@@ -110,12 +110,12 @@ def test_z_scores_are_those_of_the_prior_and_the_noise(model):
 def test_a_body_moves_as_its_mass_centre_and_inertia_do():
     rng, share = np.random.default_rng(5), 1e-4
     ten = np.array([NOMINAL[f"{p}2"] for p in PREFIXES])
-    why, found = compute_body_covariance(ten, share)
+    why, value = compute_body_covariance(ten, share)
     every = [drawn(share, rng, NOMINAL) for _ in range(1000)]
     many = [[one[f"{p}2"] for p in PREFIXES] for one in every]
-    seen, size = np.cov(np.array(many).T), np.sqrt(np.diag(found))
+    seen, size = np.cov(np.array(many).T), np.sqrt(np.diag(value))
     assert not why
-    np.testing.assert_allclose(seen / np.outer(size, size), found / np.outer(size, size), atol=0.1)
+    np.testing.assert_allclose(seen / np.outer(size, size), value / np.outer(size, size), atol=0.1)
 
 
 def spec_of(*stated):
@@ -134,8 +134,8 @@ def test_placeholders_have_no_prior_and_are_told_by_name():
         "link 3": "not physically possible",
     }
     assert not prior.groups and build_prior(spec_of(NOMINAL)) is None
-    told = " ".join(prior.format_sentences(np.zeros(3)))
-    assert "link 1 (mass of 0), link 2 (identity inertia), link 3 (not phys" in told
+    value = " ".join(prior.format_sentences(np.zeros(3)))
+    assert "link 1 (mass of 0), link 2 (identity inertia), link 3 (not phys" in value
     assert compute_body_covariance(-np.array([identity[f"{p}1"] for p in PREFIXES]), 0.1)[0]
     del values["YY3"]
     prior = build_prior(spec_of(values, {"inertial": 0.1}))
@@ -145,20 +145,20 @@ def test_placeholders_have_no_prior_and_are_told_by_name():
 
 
 def test_a_body_that_the_data_contradict_is_told_and_left_out(model):
-    told = 0
+    text = 0
     for seed in range(20):
         chi = true_chi(seed)
         chi |= {p + "3": 2.2 * NOMINAL[p + "3"] for p in PREFIXES}
-        found, white, _ = estimated_beside(model, seed, chi)
-        told += len(found.contradicted) == 1 and found.contradicted[0].startswith("link 3: the dat")
+        fit, white, _ = estimated_beside(model, seed, chi)
+        text += len(fit.contradicted) == 1 and fit.contradicted[0].startswith("link 3: the dat")
         free = [i for i, base in enumerate(model.spec.base) if base.name.endswith("3")]
-        np.testing.assert_allclose(found.beta[free], white.beta[free], rtol=0.2, atol=0.3)
-    assert told >= 19
+        np.testing.assert_allclose(fit.beta[free], white.beta[free], rtol=0.2, atol=0.3)
+    assert text >= 19
 
 
 def test_a_true_prior_is_not_told_as_contradicted(model):
-    told = [estimated_beside(model, s, true_chi(s))[0].contradicted for s in range(100, 160)]
-    assert sum(map(bool, told)) <= 2
+    lines = [estimated_beside(model, s, true_chi(s))[0].contradicted for s in range(100, 160)]
+    assert sum(map(bool, lines)) <= 2
 
 
 def log_of(model, chi, seed=0, seconds=6.0, noise=None, name="made.csv"):
@@ -191,11 +191,11 @@ def test_held_values_hold_and_the_table_says_what_came_from_the_prior(model, see
     shares = [p.prior for p in fit.parameters]
     assert all(0.0 <= share <= 1.0 for share in shares) and by_name["Fs1"].prior < 0.2
     pairs = zip(fit.parameters, identify(seen, method).parameters, strict=True)
-    assert all(own.sigma <= 1.02 * alone.sigma for own, alone in pairs)
-    told = "\n".join(fit.format_lines())
-    assert "  prior  unit" in told and "held" in told
-    assert "prior of the robot file on link 1, link 2, link 3, Fv1, Fs1" not in told
-    assert "prior of the robot file on link 1, link 2, link 3, Fv1, Fv2" in told
+    assert all(item.sigma <= 1.02 * alone.sigma for item, alone in pairs)
+    text = "\n".join(fit.format_lines())
+    assert "  prior  unit" in text and "held" in text
+    assert "prior of the robot file on link 1, link 2, link 3, Fv1, Fs1" not in text
+    assert "prior of the robot file on link 1, link 2, link 3, Fv1, Fv2" in text
     again = read_fit(fit.to_json(), fit.covariance)
     assert [p.prior for p in again.parameters] == shares
 
@@ -215,8 +215,8 @@ def test_windows_of_long_logs_raise_the_sigmas_as_all_rows_do(model):
         fit_equations(seen, build_base_equations(seen), "weighted", model, **how)
         for how in ({}, every)
     )
-    for own, other in zip(twice.parameters, once.parameters, strict=True):
-        assert own.name not in ("XZ2R", "MX2R") or 0.68 < own.sigma / other.sigma < 0.78, own
+    for item, other in zip(twice.parameters, once.parameters, strict=True):
+        assert item.name not in ("XZ2R", "MX2R") or 0.68 < item.sigma / other.sigma < 0.78, item
 
 
 def test_rows_that_repeat_each_other_weigh_less(model):
@@ -262,8 +262,8 @@ def test_an_estimator_without_this_prior_says_so_and_cannot_hold_single_values(
     robot, compiled_bodies = bodies
     asked = FitOptions(model="energy") if method == "energy" else FitOptions(method)
     who = "the energy model" if asked.model == "energy" else f"method {method}"
-    told = f"{who} cannot hold parameters.*; got Fv1, Fv2, Fv3, Fs3"
-    with pytest.raises(DataError, match=told):
+    text = f"{who} cannot hold parameters.*; got Fv1, Fv2, Fv3, Fs3"
+    with pytest.raises(DataError, match=text):
         run_estimator(asked, robot, model, seen)
     chi = NOMINAL | FRICTION
     observation = observe(compiled_bodies, [log_of(compiled_bodies, chi, 4)])
@@ -296,20 +296,20 @@ def test_a_prior_that_raises_the_error_of_a_joint_is_named(model, monkeypatch):
     assert prior.combine_with_data(white, data, white.covariance, joints="123").contradicted == ()
     wrong = dataclasses.replace(prior, mean=2.0 * prior.mean)
     monkeypatch.setattr(type(prior), "find_contradictions", lambda *_: {})
-    found = wrong.combine_with_data(white, data, 100.0 * white.covariance, joints="123")
-    assert "the prior of the robot file raises its fit error from" in " ".join(found.contradicted)
+    result = wrong.combine_with_data(white, data, 100.0 * white.covariance, joints="123")
+    assert "the prior of the robot file raises its fit error from" in " ".join(result.contradicted)
 
 
 def test_values_that_halves_disagree_about_do_not_leave_their_sums(tmp_path, monkeypatch):
     """Standard deviations that are raised one by one part an offset and a weight whose sum is
     known: with a prior the fit would leave more of the torque than without."""
     effects = '[effects]\nrotor_inertia = "all"\noffset = "all"'
-    own = text(NOMINAL | FRICTION, {"inertial": 0.3}).replace("[effects]", effects)
+    local = text(NOMINAL | FRICTION, {"inertial": 0.3}).replace("[effects]", effects)
     truth = buildable(0.3, np.random.default_rng(1), NOMINAL) | FRICTION
     machine = parse_robot_text(text(truth).replace("[effects]", effects), "arm")
     run = simulate(machine, SimulationSettings(duration=8.0, rate=200.0))
     write_log(tmp_path / "a.parquet", run)
-    model = compiled(own)
+    model = compiled(local)
     seen = observe(model, [read_log(tmp_path / "a.parquet", model.spec)])
     errors = []
     for raised in (1.0, 30.0):

@@ -138,48 +138,48 @@ _Row = tuple[np.ndarray, np.ndarray, float]
 
 def covered(seeds, case, methods, jobs=1):
     """Every method on every seed, in so many processes."""
-    given = [(seed, case, tuple(methods)) for seed in seeds]
+    inputs = [(seed, case, tuple(methods)) for seed in seeds]
     if jobs == 1:
-        every = [*map(_fitted, given)]
+        every = [*map(_fitted, inputs)]
     else:
         compiled(CASES[case].robot)  # once, not in all processes
         with ProcessPoolExecutor(jobs, get_context("spawn")) as pool:
-            every = [*pool.map(_fitted, given)]
-    found = {method: [own[method] for own in every] for method in methods}
+            every = [*pool.map(_fitted, inputs)]
+    table = {method: [item[method] for item in every] for method in methods}
     return {
         method: Covered(
             *(np.array(column) for column in zip(*filter(None, rows), strict=True)),
             rows.count(None),
         )
-        for method, rows in found.items()
+        for method, rows in table.items()
         if any(rows)
     }
 
 
-def _fitted(given: tuple[int, str, tuple[str, ...]]) -> dict[str, _Row | None]:
+def _fitted(inputs: tuple[int, str, tuple[str, ...]]) -> dict[str, _Row | None]:
     """z, shift and CPU seconds of every method on one machine; None where it is refused."""
-    seed, case, methods = given
+    seed, case, methods = inputs
     model = compiled(CASES[case].robot)
     log, truth = measured(seed, case)
     observation = api.observe(model, [log])
-    found: dict[str, _Row | None] = {}
+    table: dict[str, _Row | None] = {}
     for method in methods:
         start = time.process_time()
         try:
             fit = identify(observation, method, model)
         except DataError:
-            found[method] = None
+            table[method] = None
             continue
         seconds = time.process_time() - start
         sigma = np.array([p.sigma or np.nan for p in fit.parameters])
         away, scale = fit.beta - truth, np.where(np.abs(truth) > 1e-9, truth, np.nan)
-        found[method] = away / sigma, away / scale, seconds
-    return found
+        table[method] = away / sigma, away / scale, seconds
+    return table
 
 
 def table(case: str, found: dict[str, Covered]) -> str:
     """As Markdown."""
-    how, seeds = CASES[case], max(len(own.z) + own.refused for own in found.values())
+    how, seeds = CASES[case], max(len(entry.z) + entry.refused for entry in found.values())
     sensors = f", {how.bursts} bursts a joint" if how.bursts else ""
     lines = [
         f"Case {case}: {how.robot}, {how.duration:g} s at {how.rate:g} Hz, torque noise "
@@ -189,8 +189,8 @@ def table(case: str, found: dict[str, Covered]) -> str:
         "| mean z, largest | median error % | seconds |",
         "|---|---|---|---|---|---|---|---|",
     ]
-    for method, own in found.items():
-        z, size = own.z[np.isfinite(own.z)], np.abs(own.z)
+    for method, item in found.items():
+        z, size = item.z[np.isfinite(item.z)], np.abs(item.z)
         inside = np.where(np.isfinite(size), size < INTERVAL, np.nan)
         cells = [
             method,
@@ -198,9 +198,9 @@ def table(case: str, found: dict[str, Covered]) -> str:
             f"{100 * np.nanmean(inside):.1f} %",
             f"{100 * np.nanmean(inside, axis=0).min():.0f} %",
             f"{np.sqrt(np.mean(z**2)):.2f}",
-            f"{np.abs(np.nanmean(own.z, axis=0)).max():.2f}",
-            f"{100 * np.nanmedian(np.abs(own.shift)):.2f}",
-            f"{own.seconds.mean():.2f}" + (f", {own.refused} refused" if own.refused else ""),
+            f"{np.abs(np.nanmean(item.z, axis=0)).max():.2f}",
+            f"{100 * np.nanmedian(np.abs(item.shift)):.2f}",
+            f"{item.seconds.mean():.2f}" + (f", {item.refused} refused" if item.refused else ""),
         ]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)

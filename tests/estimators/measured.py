@@ -12,9 +12,9 @@ from tests.measured_sets.sets import SETS
 
 def tried(name: str, data: Path, methods: Sequence[str]) -> tuple[MethodResult, ...]:
     """Every method on the training logs of one set, held-out error on its others."""
-    own = SETS[name]
-    compiled = chain_of(own.robot()).compiled
-    training, held_out = own.logs(data, "forward")
+    item = SETS[name]
+    compiled = chain_of(item.robot()).compiled
+    training, held_out = item.logs(data, "forward")
     observation = api.observe(compiled, training)
     other = api.observe(compiled, held_out, observation.report.processing)
     return compare_methods(observation, compiled, other, methods)
@@ -34,26 +34,26 @@ HEADER = "| set | method | training % | held out % | farthest from weighted | se
 def lines(name: str, found: Sequence[MethodResult]) -> str:
     """Rows of Markdown."""
     rows = []
-    for own in found:
-        if own.fit is None:
-            said = f"refused: {own.refusal}"
-            rows.append([name, own.method, "", "", "", f"{own.seconds:.1f}", said])
+    for item in found:
+        if item.fit is None:
+            said = f"refused: {item.refusal}"
+            rows.append([name, item.method, "", "", "", f"{item.seconds:.1f}", said])
             continue
         far = (
             ""
-            if own.largest_shift is None
-            else f"{own.largest_shift[0]} {own.largest_shift[1]:.1f} sigma"
+            if item.largest_shift is None
+            else f"{item.largest_shift[0]} {item.largest_shift[1]:.1f} sigma"
         )
-        remarks = "; ".join(own.fit.estimator_notes)
-        held_out = "" if own.held_out_error is None else f"{100 * own.held_out_error:.2f}"
+        remarks = "; ".join(item.fit.estimator_notes)
+        held_out = "" if item.held_out_error is None else f"{100 * item.held_out_error:.2f}"
         rows.append(
             [
                 name,
-                own.method,
-                f"{100 * own.fit.relative_error:.2f}",
+                item.method,
+                f"{100 * item.fit.relative_error:.2f}",
                 held_out,
                 far,
-                f"{own.seconds:.1f}",
+                f"{item.seconds:.1f}",
                 remarks,
             ]
         )

@@ -67,23 +67,23 @@ def test_every_method_finds_the_values_of_a_well_measured_arm(observation, few_r
 @slow_rotating("estimators on logs")
 def test_the_noise_of_a_coarse_encoder_bends_weighted_values_and_not_those_of_iv():
     """1500 counts a turn: over machines the weighted values lie to one side, by many sigmas."""
-    found = covered(range(1, 7), "coarse", ["weighted", "iv"])
-    side = {name: np.linalg.norm(np.nanmean(own.z, axis=0)) for name, own in found.items()}
+    result = covered(range(1, 7), "coarse", ["weighted", "iv"])
+    side = {name: np.linalg.norm(np.nanmean(item.z, axis=0)) for name, item in result.items()}
     assert side["iv"] < 0.7 * side["weighted"]
-    near = {name: np.mean(np.abs(own.z) < 2) for name, own in found.items()}
+    near = {name: np.mean(np.abs(entry.z) < 2) for name, entry in result.items()}
     assert near["iv"] > near["weighted"] + 0.05
-    text = table("coarse", found)
+    text = table("coarse", result)
     assert "| weighted | " in text and "1500 counts" in text
 
 
 @slow_rotating("estimators on logs")
 def test_sensors_that_are_wrong_at_times_bend_didim_and_not_its_robust_steps():
     methods = ["robust", "didim", "didim-robust"]
-    found = covered((11, 12), "bursts", methods)
-    far = {name: np.nanmedian(np.abs(own.shift)) for name, own in found.items()}
+    result = covered((11, 12), "bursts", methods)
+    far = {name: np.nanmedian(np.abs(item.shift)) for name, item in result.items()}
     assert far["didim-robust"] < 0.15 * far["didim"] and far["didim"] > 0.03
     for name in ("robust", "didim-robust"):  # nor are the sigmas those of the rows left out
-        assert 0.3 < np.sqrt(np.mean(found[name].z ** 2)) < 2.0
+        assert 0.3 < np.sqrt(np.mean(result[name].z ** 2)) < 2.0
 
 
 def test_where_the_values_are_those_of_a_machine_the_consistent_ones_are_the_same(observation):
@@ -134,9 +134,9 @@ def test_a_row_that_moves_pulls_a_consistent_estimate_as_it_says():
     e = 0.5 * start.sigma[observation.row_joint[row]]
     other = estimate(equations.y + e * (np.arange(len(equations.y)) == row))
     sigma = np.sqrt(np.diag(start.covariance))
-    told, seen = e * start.influence[row] / sigma, (other.beta - start.beta) / sigma
-    assert np.abs(told).max() > 0.01
-    np.testing.assert_allclose(seen, told, atol=0.25 * np.abs(told).max())
+    value, seen = e * start.influence[row] / sigma, (other.beta - start.beta) / sigma
+    assert np.abs(value).max() > 0.01
+    np.testing.assert_allclose(seen, value, atol=0.25 * np.abs(value).max())
 
 
 AXIS = """
@@ -306,11 +306,11 @@ def test_the_command_compares_on_the_same_data(folder, capsys):
     assert main([*words.split(), "--report", str(page), "--json", str(raw)]) == 0
     out = capsys.readouterr().out
     said = json.loads(raw.read_text())
-    assert [own["method"] for own in said["methods"]] == ["weighted", "iv"]
-    for own in said["methods"]:
-        assert own["fit"]["relative_error"] < 0.02 and own["held_out_error"] < 0.02
-        assert own["seconds"] > 0.0 and own["notes"] and own["limitations"]
-        assert f"\n{own['method']}: " in out
+    assert [entry["method"] for entry in said["methods"]] == ["weighted", "iv"]
+    for item in said["methods"]:
+        assert item["fit"]["relative_error"] < 0.02 and item["held_out_error"] < 0.02
+        assert item["seconds"] > 0.0 and item["notes"] and item["limitations"]
+        assert f"\n{item['method']}: " in out
     text = page.read_text()
     assert "Values and standard deviations" in text and "weighted" in text
 

@@ -93,13 +93,13 @@ def test_robust_stands_rows_that_are_wrong_and_weighted_does_not():
 
 
 def test_robust_loses_five_per_cent_of_efficiency_on_gaussian_noise():
-    found = {"robust": [], "weighted": []}
+    table = {"robust": [], "weighted": []}
     for k in range(100):
         W, joint, noise = rows(np.random.default_rng([7, k]))
         problem = problem_of(W, W @ BETA + noise, joint)
-        found["robust"].append(estimate_robust(problem).beta - BETA)
-        found["weighted"].append(solve_least_squares(problem.data).beta - BETA)
-    variance = {name: np.var(values, axis=0) for name, values in found.items()}
+        table["robust"].append(estimate_robust(problem).beta - BETA)
+        table["weighted"].append(solve_least_squares(problem.data).beta - BETA)
+    variance = {name: np.var(values, axis=0) for name, values in table.items()}
     assert np.mean(variance["weighted"] / variance["robust"]) == pytest.approx(0.93, abs=0.08)
 
 
@@ -130,11 +130,11 @@ def test_ridge_shares_out_what_cannot_be_told_and_sets_columns_of_zeros_aside():
     W, joint, noise = rows(np.random.default_rng(8))
     W[:, 3] = 2.0 * W[:, 2]
     W[:, 1] = 0.0
-    found = estimate_ridge(problem_of(W, W @ [1.0, 0.0, 1.0, 0.0] + noise, joint))
-    assert found.rank.kept_columns == (0, 2, 3) and found.covariance[1, 1] == 0.0
-    assert found.beta[2] + 2.0 * found.beta[3] == pytest.approx(1.0, abs=0.02)
-    assert found.beta[2] / found.beta[3] == pytest.approx(2.0, abs=0.01)
-    assert any("is not identifiable apart from" in said for said in found.sentences)
+    fit = estimate_ridge(problem_of(W, W @ [1.0, 0.0, 1.0, 0.0] + noise, joint))
+    assert fit.rank.kept_columns == (0, 2, 3) and fit.covariance[1, 1] == 0.0
+    assert fit.beta[2] + 2.0 * fit.beta[3] == pytest.approx(1.0, abs=0.02)
+    assert fit.beta[2] / fit.beta[3] == pytest.approx(2.0, abs=0.01)
+    assert any("is not identifiable apart from" in said for said in fit.sentences)
 
 
 def noisy(random, strength=0.5, shift=0.0):
@@ -161,10 +161,13 @@ def test_instruments_are_right_where_noise_of_the_regressor_bends_least_squares(
 def test_instruments_that_are_the_columns_themselves_give_the_weighted_fit():
     W, joint, noise = rows(np.random.default_rng(3))
     problem = problem_of(W, W @ BETA + noise, joint)
-    found, weighted = estimate_with_instruments(problem, W, "iv"), solve_least_squares(problem.data)
-    np.testing.assert_allclose(found.beta, weighted.beta, rtol=1e-7)
-    np.testing.assert_allclose(found.covariance, weighted.covariance, rtol=1e-6, atol=1e-12)
-    np.testing.assert_allclose(found.sigma, weighted.sigma, rtol=1e-6)
+    result, weighted = (
+        estimate_with_instruments(problem, W, "iv"),
+        solve_least_squares(problem.data),
+    )
+    np.testing.assert_allclose(result.beta, weighted.beta, rtol=1e-7)
+    np.testing.assert_allclose(result.covariance, weighted.covariance, rtol=1e-6, atol=1e-12)
+    np.testing.assert_allclose(result.sigma, weighted.sigma, rtol=1e-6)
 
 
 def test_weak_instruments_are_told_and_blind_ones_refused():

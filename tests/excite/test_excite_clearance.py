@@ -73,12 +73,12 @@ def oracle(robot, q) -> dict[tuple[str, str], float]:
     for row, (radius, *ends) in CAPSULES.items():
         T = np.eye(4) if row == "0" else frames[int(row) - 1]
         placed["base" if row == "0" else row] = (np.array(ends) @ T[:3, :3].T + T[:3, 3], radius)
-    found = {}
+    table = {}
     for i, (a, (one, r)) in enumerate(placed.items()):
         for b, (other, s) in list(placed.items())[i + 1 :]:
-            found[a, b] = coal_distance(one, other, r, s)
-        found[a, "floor"] = one[:, 2].min() - FLOOR[3] / FLOOR[2] - r
-    return found
+            table[a, b] = coal_distance(one, other, r, s)
+        table[a, "floor"] = one[:, 2].min() - FLOOR[3] / FLOOR[2] - r
+    return table
 
 
 def test_distances_are_coals_for_capsules_that_cross_touch_and_are_parallel():
@@ -96,13 +96,13 @@ def test_distances_are_coals_for_capsules_that_cross_touch_and_are_parallel():
         np.zeros(0),
         np.array([[0, 1]]),
     )
-    found, points = solids.compute_distances(ends)
-    told = [coal_distance(a, b, *radius) for a, b in ends]
-    apart = found[:, 0] > 0  # coal shows the depth of a penetration by other rules
-    assert apart.sum() > 30 and np.allclose(found[apart, 0], np.array(told)[apart], atol=1e-6)
-    assert np.all(np.array(told)[~apart] < 1e-6)
+    value, points = solids.compute_distances(ends)
+    lines = [coal_distance(a, b, *radius) for a, b in ends]
+    apart = value[:, 0] > 0  # coal shows the depth of a penetration by other rules
+    assert apart.sum() > 30 and np.allclose(value[apart, 0], np.array(lines)[apart], atol=1e-6)
+    assert np.all(np.array(lines)[~apart] < 1e-6)
     between = np.linalg.norm(points[:, 0, 0] - points[:, 0, 1], axis=1)
-    assert np.allclose(between - radius.sum(), found[:, 0])
+    assert np.allclose(between - radius.sum(), value[:, 0])
 
 
 def test_pairs_that_share_a_joint_or_always_touch_are_left_out_and_told(arm):
@@ -111,8 +111,8 @@ def test_pairs_that_share_a_joint_or_always_touch_are_left_out_and_told(arm):
         set(bounds.clearance.solids.get_pair_names(k))
         for k in range(len(bounds.clearance.solids.pairs))
     ]
-    told = [{"base", "3"}, {"1", "3"}, {"1", "floor"}, {"2", "floor"}, {"3", "floor"}]
-    assert sorted(map(sorted, pairs)) == sorted(map(sorted, told))
+    lines = [{"base", "3"}, {"1", "3"}, {"1", "floor"}, {"2", "floor"}, {"3", "floor"}]
+    assert sorted(map(sorted, pairs)) == sorted(map(sorted, lines))
     out = {frozenset(pair[:2]): pair[2] for pair in bounds.clearance.excluded_pairs}
     assert out[frozenset({"base", "2"})] == "in 100 % of postures"
 
@@ -123,12 +123,12 @@ def test_the_slope_of_distances_is_their_derivative(arm):
     q = bounds.mid_range + bounds.half_range * rng.uniform(-0.8, 0.8, (40, 3))
     q = q[limits.compute_shares(q).max(axis=1) < 1.0]
     pull = rng.normal(size=limits.compute_shares(q).shape)
-    found, h = limits.pull_back_gradient(q, pull), 1e-6
+    values, h = limits.pull_back_gradient(q, pull), 1e-6
     for j, way in enumerate(h * np.eye(3)):
-        told = ((limits.compute_shares(q + way) - limits.compute_shares(q - way)) * pull).sum(
+        text = ((limits.compute_shares(q + way) - limits.compute_shares(q - way)) * pull).sum(
             axis=1
         ) / (2 * h)
-        assert np.allclose(found[:, j], told, rtol=1e-3, atol=1e-5)
+        assert np.allclose(values[:, j], text, rtol=1e-3, atol=1e-5)
 
 
 @pytest.mark.rotating("long tests of excite")
@@ -141,10 +141,10 @@ def test_a_motion_keeps_links_apart_at_all_times_and_costs_little(arm, family, t
     motion = design_motion(compiled, bounds, MotionRequest(6.0, 3, "condition", 1, family=family))
     fine = motion.series.resample_at(np.linspace(0.0, 6.0, 201)).evaluate_motion(motion.x)[0]
     seen = [oracle(robot, q) for q in fine]
-    kept = {
+    rest = {
         bounds.clearance.solids.get_pair_names(k) for k in range(len(bounds.clearance.solids.pairs))
     }
-    least = min(each[pair] for each in seen for pair in kept)
+    least = min(each[pair] for each in seen for pair in rest)
     assert 0.01 <= motion.closest_approach.bound <= least + 1e-9
     assert motion.closest_approach.bound > motion.closest_approach.distance - 2e-4
     assert motion.closest_approach.distance - 2e-4 < least < motion.closest_approach.distance + 0.01
@@ -155,9 +155,9 @@ def test_a_motion_keeps_links_apart_at_all_times_and_costs_little(arm, family, t
     assert motion.quality.condition < motion.random[0]
     place = tmp_path / "m.csv"
     place.write_text(format_csv(motion.sample_motion(200.0)))
-    told = check_motion(robot, place)
-    assert told.pair == motion.closest_approach.pair
-    assert told.distance == pytest.approx(motion.closest_approach.distance, abs=2e-5)
+    result = check_motion(robot, place)
+    assert result.pair == motion.closest_approach.pair
+    assert result.distance == pytest.approx(motion.closest_approach.distance, abs=2e-5)
 
 
 def test_what_comes_near_between_samples_is_seen(arm):
@@ -196,17 +196,17 @@ def test_the_command_checks_a_motion_and_draws_the_nearest_two(arm, tmp_path, ca
     assert text.count('"layer":"capsules"') + text.count('"layer": "capsules"') > 200
     assert "mm apart at" in text
     assert main([*words, "--clearance", "0", "--json", str(tmp_path / "c.json")]) == 0
-    told = json.loads((tmp_path / "c.json").read_text())["clearance"]
+    message = json.loads((tmp_path / "c.json").read_text())["clearance"]
     near = check_motion(arm[0], place, clearance=0.0)
-    assert told["margin"] == 0 and told["closest_approach"]["distance"] == pytest.approx(
+    assert message["margin"] == 0 and message["closest_approach"]["distance"] == pytest.approx(
         near.distance
     )
 
 
 @pytest.mark.rotating("long tests of excite")
 def test_loops_are_kept_clear_too():
-    found, compiled = built_in("five-bar")
-    bounds = build_bounds(found, compiled, {}, {}, 0.02)
+    result, compiled = built_in("five-bar")
+    bounds = build_bounds(result, compiled, {}, {}, 0.02)
     motion = design_motion(compiled, bounds, MotionRequest(6.0, 3, starts=1, time_limit=0.3))
     assert motion.closest_approach.bound >= 0.02 and len(motion.closest_approach.posture) > len(
         bounds.joints
@@ -214,7 +214,7 @@ def test_loops_are_kept_clear_too():
 
 
 @with_cases(
-    "text, told",
+    "text, message",
     ('columns = ["row"]\nrows = []', "row, radius and any of x0"),
     ('columns = ["row", "radius"]\nrows = [["9", 0.1]]', "the name of a row"),
     ('columns = ["row", "radius"]\nrows = [["1", 0]]', "a length above 0"),
@@ -223,10 +223,10 @@ def test_loops_are_kept_clear_too():
     ("planes = {floor = [0, 0, 1]}", "[x, y, z, offset]"),
     ("radius = 3", "radius"),
 )
-def test_one_line_for_capsules_that_cannot_be(text, told):
+def test_one_line_for_capsules_that_cannot_be(text, message):
     with pytest.raises(RobotError) as caught:
         parse_robot_text(f"{read_robot('demo-arm').text}\n[capsules]\n{text}\n", "a.toml")
-    assert told in str(caught.value) and "\n" not in str(caught.value)
+    assert message in str(caught.value) and "\n" not in str(caught.value)
 
 
 def test_a_margin_that_leaves_no_room_is_refused(arm):

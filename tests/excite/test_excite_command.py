@@ -92,10 +92,10 @@ def test_two_effects_are_told_apart_better_than_by_chance(capsys, folder, tmp_pa
         """.split(),
     )
     assert (status, err) == (0, "") and "load_friction@2" in out
-    found = json.loads((tmp_path / "b.json").read_text())["discrimination"]
-    gains = [effect["gain"] for effect in found.values()]
+    result = json.loads((tmp_path / "b.json").read_text())["discrimination"]
+    gains = [effect["gain"] for effect in result.values()]
     assert np.sqrt(np.prod(gains)) > 1.15 and min(gains) > 0.9
-    assert all(0 < effect["unexplained_share"] <= 1 for effect in found.values())
+    assert all(0 < effect["unexplained_share"] <= 1 for effect in result.values())
 
 
 def test_the_best_of_given_motions_is_chosen(capsys, folder, tmp_path):
@@ -177,8 +177,8 @@ def test_sigmas_of_a_model_are_forecast(capsys, folder, tmp_path):
 
 def test_a_motion_of_a_file_is_as_long_as_it_is(capsys, folder, tmp_path):
     words = ("simulate", "demo-arm", "--motion", folder / "motion.csv", "--out", tmp_path / "l.csv")
-    told = refused(capsys, *words, "--duration", 3)
-    assert "--duration: got 3 s with --motion" in told and "as long as it is" in told
+    text = refused(capsys, *words, "--duration", 3)
+    assert "--duration: got 3 s with --motion" in text and "as long as it is" in text
 
 
 def test_one_line_for_a_file_that_is_no_motion_and_for_none(capsys, tmp_path):
@@ -192,7 +192,7 @@ def test_one_line_for_a_file_that_is_no_motion_and_for_none(capsys, tmp_path):
     place, log = tmp_path / "motion.csv", tmp_path / "log.csv"
     words = ("simulate", "demo-arm", "--motion", place, "--out", log)
     assert "cannot be read" in refused(capsys, *words)
-    for told, lines in {
+    for text, lines in {
         "no column q3": ["time,q1,q2", *(f"{k},0,0" for k in range(9))],
         "time does not increase": [header, *rows, rows[3]],
         "q2 is empty, or not below 1e+12": [header, *rows[:5], "0.05,0,nan,0", *rows[6:]],
@@ -202,7 +202,7 @@ def test_one_line_for_a_file_that_is_no_motion_and_for_none(capsys, tmp_path):
     }.items():
         place.write_text("\n".join(lines) + "\n")
         line = refused(capsys, *words)
-        assert told in line and "motion.csv" in line
+        assert text in line and "motion.csv" in line
 
 
 def test_home_outside_of_the_limits_and_loops_that_do_not_close(capsys, tmp_path):

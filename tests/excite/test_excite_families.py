@@ -77,12 +77,12 @@ def test_the_command_writes_a_family_in_the_same_columns(family, tmp_path, capsy
     monkeypatch.setattr(
         "modeler.excitation.search.THRESHOLDS", replace(THRESHOLDS, random_motions=7)
     )
-    place, told = tmp_path / "m.csv", tmp_path / "m.json"
+    place, result = tmp_path / "m.csv", tmp_path / "m.json"
     words = ["excite", "two-link", "--family", family, "--duration", "4", "--starts", "1"]
     words += ["--harmonics", "3", "--laps", "2", "--picture", tmp_path / "m.svg"]
-    words += ["--json", told, "--out", place]
+    words += ["--json", result, "--out", place]
     assert main([str(word) for word in words]) == 0, capsys.readouterr().err
-    motion, raw = read_motion(place, ["1", "2"]), json.loads(told.read_text())
+    motion, raw = read_motion(place, ["1", "2"]), json.loads(result.read_text())
     assert raw["family"] == raw["series"]["family"] == family
     assert (
         raw["random_motions"]["count"] == 7
@@ -107,8 +107,8 @@ def test_the_slope_of_a_criterion_beside_logs_is_its_derivative():
     value, h = known.extend_criterion(CRITERIA["information"], 2.0), 1e-6
     difference = (value(W + h * way)[0] - value(W - h * way)[0]) / (2 * h)
     assert np.sum(value(W)[1] * way) == pytest.approx(difference, rel=1e-5)
-    told = -np.linalg.slogdet(2.0 * W.T @ W + known.triangle.T @ known.triangle)[1] / 10
-    assert value(W)[0] == pytest.approx(told)
+    stated = -np.linalg.slogdet(2.0 * W.T @ W + known.triangle.T @ known.triangle)[1] / 10
+    assert value(W)[0] == pytest.approx(stated)
 
 
 NOISE, RATE, STEP = np.array([0.3, 0.2, 0.1]), 250.0, 2 * np.pi / 2**16

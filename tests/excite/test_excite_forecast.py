@@ -50,13 +50,13 @@ def sigmas(fitted) -> np.ndarray:
 @pytest.mark.parametrize("counts", [0, 4096])
 def test_forecast_sigmas_are_those_that_fits_find(arm, known, counts) -> None:
     model, motion = known
-    told = expected_sigmas(model, motion, rate=RATE, counts=counts)
+    result = expected_sigmas(model, motion, rate=RATE, counts=counts)
     step = 2.0 * np.pi / counts if counts else 0.0
-    found = [arm(motion.sample_motion(RATE), step).fit for _ in range(4)]
-    ratio = sigmas(told) / np.median([sigmas(each) for each in found], axis=0)
+    values = [arm(motion.sample_motion(RATE), step).fit for _ in range(4)]
+    ratio = sigmas(result) / np.median([sigmas(each) for each in values], axis=0)
     assert ratio.min() > 0.7 and ratio.max() < 1.4
-    cutoffs = [each.processing.parallel_cutoff for each in found]
-    assert told.processing.parallel_cutoff == pytest.approx(np.median(cutoffs), rel=0.25)
+    cutoffs = [each.processing.parallel_cutoff for each in values]
+    assert result.processing.parallel_cutoff == pytest.approx(np.median(cutoffs), rel=0.25)
 
 
 def test_a_coarse_encoder_costs_sigma_and_white_noise_as_much(known) -> None:

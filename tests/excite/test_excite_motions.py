@@ -46,8 +46,8 @@ def test_serial_robots_keep_to_their_limits_and_beat_random_motions(name):
     # Sigmas are a tenth larger at most than on the motion that is best for them among 50.
     worse = (motion.random_log_det - motion.quality.log_det) / 2 / len(compiled.spec.base)
     assert worse < np.log(1.1)
-    told = compiled.observation(*motion.series.evaluate_motion(motion.x))
-    assert motion.quality.condition == pytest.approx(compute_condition(told))
+    value = compiled.observation(*motion.series.evaluate_motion(motion.x))
+    assert motion.quality.condition == pytest.approx(compute_condition(value))
 
 
 def test_torques_and_boxes_hold_between_the_samples():
@@ -91,7 +91,7 @@ def assert_not_faster(found, constraints, q, bounds):
 
 @pytest.mark.parametrize("name", ["five-bar", pytest.param("orthoglide-2012", marks=ROTATING)])
 def test_loops_close_all_along_away_from_singular_postures(name):
-    (found, compiled), limits = robot(name), ()
+    (values, compiled), limits = robot(name), ()
     if name == "five-bar":
         home = np.array(compiled.spec.closure.home)[list(compiled.spec.closure.actuated)]
         limits = tuple(
@@ -101,15 +101,15 @@ def test_loops_close_all_along_away_from_singular_postures(name):
     compiled, bounds = limits_of(name, limits)
     motion = design_motion(compiled, bounds, MotionRequest(6.0, 4, starts=1))
     q, *_ = finely(motion)
-    constraints = closing.build_constraints(found)
+    constraints = closing.build_constraints(values)
     away = closing.compute_singularity_distances(
-        constraints, closing.compute_closed_postures(found, constraints, q)
+        constraints, closing.compute_closed_postures(values, constraints, q)
     )
     home = closing.compute_singularity_distances(
-        constraints, closing.compute_closed_postures(found, constraints, bounds.home[None, :])
+        constraints, closing.compute_closed_postures(values, constraints, bounds.home[None, :])
     )[0]
     assert away.min() > 0.05 * home
-    assert_not_faster(found, constraints, q, bounds)
+    assert_not_faster(values, constraints, q, bounds)
     assert motion.usage.loops < 1.0 and motion.quality.condition < motion.random[0]
     assert np.all(q <= bounds.upper) and np.all(q >= bounds.lower)
     if name == "five-bar":  # its limits alone would lead it through a singular posture
@@ -130,12 +130,12 @@ def test_the_same_seed_gives_the_same_motion_and_another_one_another():
 
 def test_the_objectives_do_what_they_are_called():
     compiled, bounds = limits_of("scara")
-    found = {
+    table = {
         name: design_motion(compiled, bounds, MotionRequest(6.0, 4, name, 1)).quality
         for name in ("both", "condition", "information")
     }
-    assert found["condition"].condition <= found["both"].condition < found["information"].condition
-    assert found["information"].log_det >= found["both"].log_det > found["condition"].log_det
+    assert table["condition"].condition <= table["both"].condition < table["information"].condition
+    assert table["information"].log_det >= table["both"].log_det > table["condition"].log_det
 
 
 def test_a_noisy_joint_counts_less():

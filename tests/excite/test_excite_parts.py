@@ -81,16 +81,16 @@ def test_descent_stays_within_walls_and_finds_what_scipy_finds():
         return (1.2 - x[0]) / way[0] if way[0] > 0 else np.inf
 
     start = np.array([-1.0, 1.0])
-    found = minimise_bfgs(ObjectiveFunction(value, slope, reach), start, 200, 1e-9, lambda: True)
+    result = minimise_bfgs(ObjectiveFunction(value, slope, reach), start, 200, 1e-9, lambda: True)
     best = minimize(value, start, method="Nelder-Mead", options={"xatol": 1e-7, "maxiter": 4000})
-    assert np.allclose(found, best.x, atol=1e-3)
+    assert np.allclose(result, best.x, atol=1e-3)
 
 
 def test_evolution_finds_the_bottom_of_a_narrow_valley():
-    found = minimise_cma_es(
+    actual = minimise_cma_es(
         rosen, np.array([-1.0, 1.0, 0.5]), 0.3, 400, np.random.default_rng(0), lambda n: True
     )
-    assert np.allclose(found, 1.0, atol=1e-3)
+    assert np.allclose(actual, 1.0, atol=1e-3)
 
 
 def test_dry_friction_turns_smoothly_and_is_itself_away_from_rest():

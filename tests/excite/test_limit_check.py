@@ -33,7 +33,7 @@ def smooth(rng: np.random.Generator, rate: float) -> tuple[np.ndarray, np.ndarra
     time = np.arange(round(8.0 * rate) + 1) / rate
     window = np.sin(np.pi * time / 8.0) ** 2
     tones = rng.uniform(0.2, 0.8, (2, 4))
-    q = np.stack([np.sin(2 * np.pi * own * time[:, None]).sum(axis=1) for own in tones], axis=1)
+    q = np.stack([np.sin(2 * np.pi * item * time[:, None]).sum(axis=1) for item in tones], axis=1)
     q = q * window[:, None]
     v = np.gradient(q, time, axis=0)
     a = np.gradient(v, time, axis=0)
@@ -43,8 +43,8 @@ def smooth(rng: np.random.Generator, rate: float) -> tuple[np.ndarray, np.ndarra
 
 
 def kinds(time: np.ndarray, q: np.ndarray) -> set[tuple[str, str]]:
-    found = find_exceeded_limits(BOUNDS, ("rad", "rad"), time, q, None)
-    return {(each.joint, each.quantity) for each in found}
+    matches = find_exceeded_limits(BOUNDS, ("rad", "rad"), time, q, None)
+    return {(each.joint, each.quantity) for each in matches}
 
 
 @pytest.mark.parametrize("rate", [100.0, 250.0, 1000.0])
@@ -63,8 +63,8 @@ def test_a_leap_is_found_whatever_its_place() -> None:
         time, q = smooth(rng, 200.0)
         at, way = int(rng.integers(10, len(time) - 10)), rng.choice([-1.0, 1.0])
         q[at:, 1] += way * rng.uniform(0.05, 1.37)
-        found = find_exceeded_limits(BOUNDS, ("rad", "rad"), time, q, None)
-        first = next(each for each in found if each.quantity in ("speed", "acceleration"))
+        matches = find_exceeded_limits(BOUNDS, ("rad", "rad"), time, q, None)
+        first = next(each for each in matches if each.quantity in ("speed", "acceleration"))
         assert first.joint == "2" and first.time == pytest.approx(time[at], abs=0.05)
         if first.quantity == "speed":
             assert abs(first.value) > 2.0 and "in 5 ms), limit 2" in first.format_line()

@@ -86,8 +86,8 @@ def same_physics(one: Robot, other: Robot, share: float = 1e-9) -> bool:
     """Torques of both, nominal values, at random states."""
     rng = np.random.default_rng()
     q, qd, qdd = (rng.uniform(-1.0, 1.0, (50, len(one.coordinates))) for _ in range(3))
-    found = [torques(robot, q, qd, qdd) for robot in (one, other)]
-    return bool(np.abs(found[0] - found[1]).max() <= share * np.abs(found[0]).max())
+    values = [torques(robot, q, qd, qdd) for robot in (one, other)]
+    return bool(np.abs(values[0] - values[1]).max() <= share * np.abs(values[0]).max())
 
 
 def reread(folder: Path, name: str, data: bytes) -> Robot:

@@ -28,8 +28,8 @@ def functions_of(data: bytes, tmp_path) -> dict[str, casadi.Function]:
 
 def called(function, values) -> np.ndarray:
     """Its outputs, one below the other, by the names of its inputs."""
-    found = function.call([casadi.DM(values[name]) for name in function.name_in()])
-    return np.vstack([x.full() for x in found])
+    result = function.call([casadi.DM(values[name]) for name in function.name_in()])
+    return np.vstack([x.full() for x in result])
 
 
 def state_of(spec, rng) -> dict[str, np.ndarray]:
@@ -42,9 +42,9 @@ def state_of(spec, rng) -> dict[str, np.ndarray]:
 def far(name: str, tmp_path, rng, reach: float = 1.5) -> dict[str, float]:
     """{function: its largest distance from the C, relative}, at random states."""
     robot = load(name)
-    found = export(robot, to="casadi")
-    functions = functions_of(found.data, tmp_path)
-    assert functions.keys() == found.functions.keys()
+    files = export(robot, to="casadi")
+    functions = functions_of(files.data, tmp_path)
+    assert functions.keys() == files.functions.keys()
     derivation = derive(robot)
     compiled = loaded(generate_with(derivation, control=Control()))
     spec, errors = compiled.spec, dict[str, float]()
@@ -59,8 +59,8 @@ def far(name: str, tmp_path, rng, reach: float = 1.5) -> dict[str, float]:
                 state["q"] = home + reach * state["q"]
             sizes = {argument.name: argument.size for argument in emitted.inputs}
             state["widths"] = rng.uniform(0.1, 1.0, sizes.get("widths", 0))
-            given = {name: state[name] for name in sizes}
-            theirs = compiled.evaluate(role, **given)[0].reshape(-1)
+            cells = {name: state[name] for name in sizes}
+            theirs = compiled.evaluate(role, **cells)[0].reshape(-1)
             ours = called(functions[role], state).reshape(-1)
             error = np.abs(ours - theirs).max() / max(np.abs(theirs).max(), 1e-9)
             errors[role] = max(errors.get(role, 0.0), error)
@@ -146,8 +146,8 @@ def test_a_model_has_its_values_in_place_of_beta(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr("modeler.api.exporting.build_portable_library", lambda _: b"no need of it")
     robot = load("two-link")
     model = identify(robot, simulate(robot, duration=4.0, rate=200.0, seed=3))
-    found = export(model, tmp_path / "two.casadi")
-    assert [value.after for value in found.values] == pytest.approx(list(model.beta))
+    files = export(model, tmp_path / "two.casadi")
+    assert [value.after for value in files.values] == pytest.approx(list(model.beta))
     fitted, free = (functions_of(export(x, to="casadi").data, tmp_path) for x in (model, robot))
     state = state_of(model.spec, np.random.default_rng()) | {"beta": model.beta}
     for role, function in fitted.items():

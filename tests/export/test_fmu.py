@@ -93,25 +93,25 @@ def run(unit, kind: str, torques, **options) -> np.ndarray:
     place, plant, state, times, _ = unit
     names = [joint.name for joint in plant.spec.joints]
     states = [f"{kind}{name}" for kind in ("q", "qd") for name in names]
-    given = np.zeros(len(times), [("time", float), *((f"tau{name}", float) for name in names)])
-    given["time"] = times
+    values = np.zeros(len(times), [("time", float), *((f"tau{name}", float) for name in names)])
+    values["time"] = times
     for name, column in zip(names, torques.T, strict=True):
-        given[f"tau{name}"] = column
+        values[f"tau{name}"] = column
     start = dict(zip(states, state, strict=True)) | {"step": 5e-4}
     start |= {f"width{name}": WIDTH for name in plant.coulomb}
-    found = fmpy.simulate_fmu(
+    run = fmpy.simulate_fmu(
         str(place),
         stop_time=LENGTH,
         output_interval=STEP,
         fmi_type=kind,
-        input=given,
+        input=values,
         start_values=start,
         output=states,
         validate=True,
         **options,
     )
-    assert np.allclose(found["time"], times)
-    return np.column_stack([found[name] for name in states])
+    assert np.allclose(run["time"], times)
+    return np.column_stack([run[name] for name in states])
 
 
 def test_the_description_is_valid(unit) -> None:
@@ -120,16 +120,16 @@ def test_the_description_is_valid(unit) -> None:
 
 def test_co_simulation_is_our_own_integration(unit) -> None:
     _, plant, state, _, torques = unit
-    found = run(unit, "CoSimulation", torques)
+    out = run(unit, "CoSimulation", torques)
     ours = plant.runge_kutta(state, torques[:-1], 5e-4, 4)
-    assert np.abs(found - state).max() > 1e-2
-    assert np.abs(found - ours).max() < 1e-9 * np.abs(ours).max()
+    assert np.abs(out - state).max() > 1e-2
+    assert np.abs(out - ours).max() < 1e-9 * np.abs(ours).max()
 
 
 def test_model_exchange_follows_the_equations(unit) -> None:
     _, plant, state, times, torques = unit
     torques = np.broadcast_to(torques[7], torques.shape)  # FMPy's solver looks beyond a step
-    found = run(unit, "ModelExchange", torques, relative_tolerance=1e-10)
+    out = run(unit, "ModelExchange", torques, relative_tolerance=1e-10)
     ours = solve_ivp(
         lambda _, x: plant.slope(x, torques[0]),
         (0, LENGTH),
@@ -139,8 +139,8 @@ def test_model_exchange_follows_the_equations(unit) -> None:
         rtol=1e-10,
         atol=1e-12,
     )
-    assert np.abs(found - state).max() > 1e-2
-    assert np.abs(found - ours.y.T).max() < 1e-6 * np.abs(ours.y).max()
+    assert np.abs(out - state).max() > 1e-2
+    assert np.abs(out - ours.y.T).max() < 1e-6 * np.abs(ours.y).max()
 
 
 def test_simulink_is_the_same_unit_and_sources_do_alone(monkeypatch) -> None:
@@ -240,5 +240,5 @@ PUBLISHED = {
 
 def test_the_headers_are_those_that_were_published() -> None:
     folder = locate_resources("templates") / "fmi3"
-    found = {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in folder.iterdir()}
-    assert found == PUBLISHED
+    table = {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in folder.iterdir()}
+    assert table == PUBLISHED

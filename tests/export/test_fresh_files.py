@@ -58,7 +58,7 @@ def states(robot: Robot):
 def pinocchio_torques(text: bytes, joints: list[str], q, qd, qdd, g=9.81) -> np.ndarray:
     model = pin.buildModelFromXML(text.decode())
     model.gravity.linear = np.array([0.0, 0.0, -g])  # a URDF states none
-    data, found = model.createData(), []
+    data, values = model.createData(), []
     order = [model.getJointId(name) for name in joints]
     for row in zip(q, qd, qdd, strict=True):
         full, v, a = pin.neutral(model), np.zeros(model.nv), np.zeros(model.nv)
@@ -70,8 +70,8 @@ def pinocchio_torques(text: bytes, joints: list[str], q, qd, qdd, g=9.81) -> np.
                 [row[0][k]] if joint.nq == 1 else [np.cos(row[0][k]), np.sin(row[0][k])]
             )
         tau = pin.rnea(model, data, full, v, a)
-        found.append([tau[model.joints[i].idx_v] for i in order])
-    return np.array(found)
+        values.append([tau[model.joints[i].idx_v] for i in order])
+    return np.array(values)
 
 
 def mujoco_torques(text: bytes, joints: list[str], q, qd, qdd) -> np.ndarray:
@@ -80,14 +80,14 @@ def mujoco_torques(text: bytes, joints: list[str], q, qd, qdd) -> np.ndarray:
     model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
     data = mujoco.MjData(model)
     at = [model.joint(name) for name in joints]
-    found = []
+    values = []
     for row in zip(q, qd, qdd, strict=True):
         for k, joint in enumerate(at):
             data.qpos[joint.qposadr] = row[0][k]
             data.qvel[joint.dofadr], data.qacc[joint.dofadr] = row[1][k], row[2][k]
         mujoco.mj_inverse(model, data)
-        found.append([data.qfrc_inverse[joint.dofadr][0] for joint in at])
-    return np.array(found)
+        values.append([data.qfrc_inverse[joint.dofadr][0] for joint in at])
+    return np.array(values)
 
 
 def close(one: np.ndarray, other: np.ndarray, share: float = 1e-9) -> bool:
@@ -126,8 +126,8 @@ def test_built_in_robots_weigh_in_both_what_they_state(name) -> None:
     robot = load(name)
     bodies = dataclasses.replace(rigid(robot), motors={}, relations={})
     if robot.motors:
-        own = [j for j in robot.joints if j.name not in robot.motors]
-        joints = tuple(dataclasses.replace(joint, actuated=True) for joint in own)
+        items = [j for j in robot.joints if j.name not in robot.motors]
+        joints = tuple(dataclasses.replace(joint, actuated=True) for joint in items)
         bodies = dataclasses.replace(bodies, joints=joints)
     q, qd, qdd = states(bodies)
     ours = torques(bodies, q, qd, qdd)
@@ -143,9 +143,9 @@ def test_what_cannot_be_written_is_refused_in_one_line(tree) -> None:
         (lambda: export(tree, out="x.step"), "does not say the format"),
         (lambda: export(tree), "does not say the format"),
     ):
-        with pytest.raises(DataError, match=word) as told:
+        with pytest.raises(DataError, match=word) as result:
             call()
-        assert "\n" not in str(told.value)
+        assert "\n" not in str(result.value)
 
 
 def test_no_name_is_that_of_two_things(tmp_path) -> None:
@@ -199,8 +199,8 @@ def test_a_body_too_small_for_mujoco_is_told(tmp_path) -> None:
         text = re.sub(rb'(i([xyz])\2=")[^"]*', rf"\g<1>{moment}".encode(), text)
         text = re.sub(rb'<origin xyz="0.0[^>]*>|<origin xyz="0 0 0.05"/>', b"", text)
         text = text.replace(b"<mass value='2.50'/>", b'<mass value="1e-6"/>')
-        found = export(reread(tmp_path, "arm.urdf", text), to="urdf")
-        assert any("too small for MuJoCo" in note for note in found.notes) == small
+        files = export(reread(tmp_path, "arm.urdf", text), to="urdf")
+        assert any("too small for MuJoCo" in note for note in files.notes) == small
 
 
 def test_numbers_of_the_file_that_the_robot_came_from_are_told(tmp_path) -> None:

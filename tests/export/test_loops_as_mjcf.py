@@ -41,11 +41,11 @@ def apart(robot: Robot, seed: int, count: int = 6) -> float:
     names = [f"joint_{j.name}" for j in robot.free_joints]
     at = [model.joint(name).dofadr[0] for name in names]
     assert len(at) + len(robot.relations) == model.nv
-    given = list(spec.closure.actuated)
-    home = np.array(spec.closure.home)[given]
+    inputs = list(spec.closure.actuated)
+    home = np.array(spec.closure.home)[inputs]
     chi = np.array([p.nominal or 0.0 for p in spec.standard])
-    beta, found, right = compiled.base_parameters(chi), [], []
-    while len(found) < count:
+    beta, values, right = compiled.base_parameters(chi), [], []
+    while len(values) < count:
         q = home + rng.uniform(-0.08, 0.08, len(home))
         qd, qdd = rng.uniform(-1.0, 1.0, (2, len(home)))
         path = q + np.outer(STEP * np.arange(-4, 5), qd)
@@ -58,9 +58,9 @@ def apart(robot: Robot, seed: int, count: int = 6) -> float:
         data.qacc[at] = G[4] @ qdd + rate @ qd
         set_followers(robot, model, data)
         mujoco.mj_inverse(model, data)
-        found.append(full.T @ data.qfrc_inverse)
+        values.append(full.T @ data.qfrc_inverse)
         right.append(compiled.inverse_dynamics(q[None], qd[None], qdd[None], beta)[0])
-    return float(np.abs(np.array(found) - right).max() / np.abs(right).max())
+    return float(np.abs(np.array(values) - right).max() / np.abs(right).max())
 
 
 def follow(robot: Robot, model, at: list[int], G: np.ndarray) -> np.ndarray:
@@ -68,19 +68,19 @@ def follow(robot: Robot, model, at: list[int], G: np.ndarray) -> np.ndarray:
     full = np.zeros((model.nv, G.shape[1]))
     full[at] = G
     for name, slopes, _ in lines_of(robot):
-        own = model.joint(f"joint_{name}").dofadr[0]
-        full[own] = sum(c * full[model.joint(f"joint_{k}").dofadr[0]] for k, c in slopes.items())
+        actual = model.joint(f"joint_{name}").dofadr[0]
+        full[actual] = sum(c * full[model.joint(f"joint_{k}").dofadr[0]] for k, c in slopes.items())
     return full
 
 
 def set_followers(robot: Robot, model, data) -> None:
     for name, slopes, constant in lines_of(robot):
-        own, others = (
+        items, others = (
             model.joint(f"joint_{name}").dofadr[0],
             [(model.joint(f"joint_{k}").dofadr[0], c) for k, c in slopes.items()],
         )
         for array, offset in ((data.qpos, constant), (data.qvel, 0.0), (data.qacc, 0.0)):
-            array[own] = offset + sum(c * array[k] for k, c in others)
+            array[items] = offset + sum(c * array[k] for k, c in others)
 
 
 def lines_of(robot: Robot):
@@ -116,9 +116,9 @@ def test_bodies_that_are_half_stated_have_the_torques_of_the_c(seed: int) -> Non
     values = {"M1": 2.0, "MX1": 0.3, "ZZ1": 0.1, "M2": 3.0, "MY2": 0.4, "M3": 1.0}
     lines = [f"{name} = {x * rng.uniform(0.7, 1.3)!r}" for name, x in values.items()]
     robot = parse_robot_text(PARTIAL + "\n".join(lines), "half")
-    found = export(robot, to="mjcf")
-    told = [note for note in found.notes if "C" in note]
-    assert told, found.notes
-    differ = re.search(r"torques differ by ([\d.]+) %", " ".join(found.notes))
+    files = export(robot, to="mjcf")
+    texts = [note for note in files.notes if "C" in note]
+    assert texts, files.notes
+    differ = re.search(r"torques differ by ([\d.]+) %", " ".join(files.notes))
     error = apart(robot, 4)
     assert error < 1e-9 if differ is None else error > 1e-4

@@ -44,16 +44,16 @@ def torques_without(model, q, qd, qdd, left_out, values=None) -> np.ndarray:
 
 def test_the_exported_file_has_the_torques_of_the_fit(fitted) -> None:
     place, _, model = fitted
-    found = export(model, like=place)
-    assert found.shift_in_sigmas == 0.0
+    files = export(model, like=place)
+    assert files.shift_in_sigmas == 0.0
     rng = np.random.default_rng()
     q, qd, qdd = (rng.uniform(-1.0, 1.0, (50, 3)) for _ in range(3))
     joints = ["shoulder", "elbow", "slide"]
-    lost = {name: x for lost in found.lost_effects for name, x in lost.values.items()}
+    lost = {name: x for lost in files.lost_effects for name, x in lost.values.items()}
     assert set(lost) == {f"{prefix}{j}" for prefix in ("Ia", "Off") for j in "123"}
     rotors = {name: x for name, x in lost.items() if name.startswith("Ia")}
     ours = torques_without(model, q, qd, qdd, ("Fv", "Fs", "Off"), rotors)
-    exact = found.data.replace(b'"1.5708 ', b'"1.5707963267948966 ')  # as it is read
+    exact = files.data.replace(b'"1.5708 ', b'"1.5707963267948966 ')  # as it is read
     assert close(pinocchio_torques(exact, joints, q, qd, qdd), ours)
     assert not close(pinocchio_torques(URDF, joints, q, qd, qdd), ours, 0.05)
     whole = torques_without(model, q, qd, qdd, ("Fs", "Off"))
@@ -90,15 +90,15 @@ def test_values_have_the_sigmas_of_the_fit(fitted) -> None:
 
 def test_the_comment_and_the_tables_tell_it(fitted, tmp_path) -> None:
     place, _, model = fitted
-    found = export(model, tmp_path / "better.urdf", like=place)
+    files = export(model, tmp_path / "better.urdf", like=place)
     text = (tmp_path / "better.urdf").read_bytes()
     comment = text[text.index(b"<!-- modeler export") : text.index(b"-->")].decode()
     assert "--" not in comment.removeprefix("<!--") and "+-" in comment
     assert "shoulder friction:" in comment and "was 0.7" in comment
-    assert "numbers changed" in found.summary()
-    table = found.to_frame()
+    assert "numbers changed" in files.summary()
+    table = files.to_frame()
     assert list(table.columns[:2]) == ["part", "quantity"]
-    assert found.to_dict()["values"][0]["is_changed"] in (True, False)
+    assert files.to_dict()["values"][0]["is_changed"] in (True, False)
 
 
 @pytest.mark.rotating("long tests of export")
@@ -142,16 +142,16 @@ def test_the_nearest_machine_is_the_nearest() -> None:
     beta = K @ ten
     beta[1] = -0.2 * beta[1]  # ZZ below 0
     C = np.diag((0.05 * np.abs(K @ ten)) ** 2)
-    found = compute_completion(K, Prior(ten, S), beta, C)
-    assert np.allclose(K @ found.chi, beta, rtol=1e-12)
+    result = compute_completion(K, Prior(ten, S), beta, C)
+    assert np.allclose(K @ result.chi, beta, rtol=1e-12)
     size = {"1": np.linalg.inv(np.linalg.cholesky(estimation.compute_pseudo_inertia(ten)))}
-    best = find_nearest_physical(machine, found, beta, C, size, {})
+    best = find_nearest_physical(machine, result, beta, C, size, {})
     assert best is not None and best.shift_in_sigmas > 1.0
     assert np.linalg.eigvalsh(estimation.compute_pseudo_inertia(best.chi))[0] > 0.0
-    L = np.linalg.cholesky(found.covariance)
+    L = np.linalg.cholesky(result.covariance)
 
     def far(chi) -> float:
-        return float(np.linalg.norm(np.linalg.solve(L, chi - found.chi)))
+        return float(np.linalg.norm(np.linalg.solve(L, chi - result.chi)))
 
     least = far(best.chi)
     for t in np.repeat(np.geomspace(1e-3, 1.0, 20), 100):
@@ -168,9 +168,9 @@ def test_a_fit_that_could_not_be_built_becomes_one_that_could(fitted) -> None:
     broken = dataclasses.replace(
         model, fit=dataclasses.replace(model.fit, parameters=tuple(values))
     )
-    found = export(broken, like=place)
-    assert found.shift_in_sigmas == pytest.approx(3.0, rel=0.2) and "moved by 3" in found.summary()
-    elbow = [v for v in found.values if (v.part, v.quantity) == ("elbow", "friction")]
+    files = export(broken, like=place)
+    assert files.shift_in_sigmas == pytest.approx(3.0, rel=0.2) and "moved by 3" in files.summary()
+    elbow = [v for v in files.values if (v.part, v.quantity) == ("elbow", "friction")]
     assert elbow[0].after >= 0.0
 
 
@@ -188,11 +188,11 @@ def test_what_hangs_on_a_link_changes_only_where_it_must(tmp_path) -> None:
         light = {f"{p}3": share * robot.parameters[f"{p}3"] for p in estimation.PREFIXES}
         truth = dataclasses.replace(robot, parameters=robot.parameters | light)
         model = identify(robot, simulate(truth, duration=6.0, rate=200.0, seed=5))
-        found = export(model, like=place)
-        again = read_robot(written(tmp_path, "again.urdf", found.data))
+        files = export(model, like=place)
+        again = read_robot(written(tmp_path, "again.urdf", files.data))
         assert again.parameters["M3"] == pytest.approx(0.3 * share, rel=0.05)
-        masses[share] = {v.part: v.after for v in found.values if v.quantity == "mass"}
-        assert any("changed with it: finger" in note for note in found.notes) == (share < 1.0)
+        masses[share] = {v.part: v.after for v in files.values if v.quantity == "mass"}
+        assert any("changed with it: finger" in note for note in files.notes) == (share < 1.0)
     assert masses[1.2]["slider"] == pytest.approx(0.16, rel=0.1) and "finger" not in masses[1.2]
     assert 0.0 < masses[0.5]["slider"] < 0.1 and 0.0 < masses[0.5]["finger"] < 0.2
 
@@ -202,8 +202,8 @@ def test_links_without_values_get_capsules_and_it_is_told() -> None:
     robot = load("scara")
     bare = parse_robot_text(robot.text, "scara.toml")
     model = identify(bare, simulate(robot, duration=4.0, rate=200.0, seed=2))
-    found = export(model, to="mjcf")
-    assert any("that of a capsule" in note for note in found.notes)
+    files = export(model, to="mjcf")
+    assert any("that of a capsule" in note for note in files.notes)
     rng = np.random.default_rng()
     q, qd, qdd = (rng.uniform(-0.5, 0.5, (50, 4)) for _ in range(3))
     left = tuple(
@@ -211,4 +211,4 @@ def test_links_without_values_get_capsules_and_it_is_told() -> None:
     )
     names = [f"joint_{joint.name}" for joint in robot.moving_joints]
     ours = torques_without(model, q, qd, qdd, left)
-    assert close(mujoco_torques(found.data, names, q, qd, qdd), ours)
+    assert close(mujoco_torques(files.data, names, q, qd, qdd), ours)

@@ -29,8 +29,8 @@ def package(request, tmp_path_factory):
 
 
 def test_the_core_tracks_a_motion_without_ros(package, tmp_path) -> None:
-    found, folder = package
-    if found.robot != "demo-arm":
+    result, folder = package
+    if result.robot != "demo-arm":
         pytest.skip("the harness is for trees")
     name = ET.parse(folder / "package.xml").getroot().findtext("name")
     text = (ROS2 / "harness.cpp").read_text().replace("PACKAGE", name).replace("PREFIX", "demo_arm")
@@ -50,10 +50,10 @@ def test_the_core_tracks_a_motion_without_ros(package, tmp_path) -> None:
         "-o",
         tmp_path / "harness",
     )
-    right, largest, *told = map(float, run(tmp_path / "harness", 1.0, 0.0).split())
+    right, largest, *message = map(float, run(tmp_path / "harness", 1.0, 0.0).split())
     wrong = float(run(tmp_path / "harness", 0.7, 0.0).split()[0])
     assert right < 2e-3 < wrong  # rad; it begins 0.1 rad away
-    assert told == [3.0, 0.0, 3.0, 0.0]  # a position, then a limit that is no number
+    assert message == [3.0, 0.0, 3.0, 0.0]  # a position, then a limit that is no number
     limited = float(run(tmp_path / "harness", 1.0, largest / 3).split()[1])
     assert limited == pytest.approx(largest / 3, rel=1e-5)
 
@@ -75,17 +75,17 @@ def test_the_controller_compiles_on_stand_ins_of_ros(package, tmp_path) -> None:
 
 
 def test_the_files_name_one_another(package) -> None:
-    found, folder = package
+    result, folder = package
     name = ET.parse(folder / "package.xml").getroot().findtext("name")
     made = ET.parse(folder / "plugin.xml").getroot()
     assert made.get("path") == name
     assert made.find("class").get("type") == f"{name}::Controller"
     assert (
-        f"PLUGINLIB_EXPORT_CLASS({name}::Controller" in found.files["src/controller.cpp"].decode()
+        f"PLUGINLIB_EXPORT_CLASS({name}::Controller" in result.files["src/controller.cpp"].decode()
     )
-    cmake = found.files["CMakeLists.txt"].decode()
+    cmake = result.files["CMakeLists.txt"].decode()
     assert all(f"src/{p.name}\n" in cmake for p in (folder / "src").glob("*.c"))
-    assert f"type: {name}/Controller" in found.files["config/controller.yaml"].decode()
+    assert f"type: {name}/Controller" in result.files["config/controller.yaml"].decode()
 
 
 def test_a_package_is_written_again(tmp_path, capsys) -> None:

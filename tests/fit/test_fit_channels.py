@@ -37,7 +37,7 @@ def log_of(name, **settings):
 def runs(name):
     """A compiled robot and two simulated logs."""
     kinds = ({"seed": seed, "torque_noise": 0.01 * seed} for seed in (1, 2))
-    return compiled(name), [log_of(name, duration=12.0, rate=250.0, **own) for own in kinds]
+    return compiled(name), [log_of(name, duration=12.0, rate=250.0, **item) for item in kinds]
 
 
 def unit(machine, j):
@@ -88,7 +88,7 @@ def test_a_fit_to_sound_channels_is_not_doubted(name):
     machine, logs = runs(name)
     for log in logs:
         observation = observe(machine, [log])
-        assert all(found.is_undetectable for found in find_log_faults(machine, observation))
+        assert all(matches.is_undetectable for matches in find_log_faults(machine, observation))
 
 
 @pytest.mark.rotating
@@ -188,25 +188,25 @@ def test_every_command_says_the_same(arm, capsys, mistake):
         columns["q2"] /= 2.0 * np.pi
     else:
         columns["q2"] = np.interp(columns["time"] - 0.03, columns["time"], columns["q2"])
-    log, own, told = arm / f"{mistake}.parquet", arm / f"{mistake}.json", arm / "told.json"
+    log, items, result = arm / f"{mistake}.parquet", arm / f"{mistake}.json", arm / "told.json"
     pq.write_table(pa.table(columns), log)
     for words in (
-        f"fit demo-arm {log} --out {own} --json {told}",
+        f"fit demo-arm {log} --out {items} --json {result}",
         f"log {log} --robot demo-arm",
-        f"compare {arm}/m.json {log} --json {told}",
+        f"compare {arm}/m.json {log} --json {result}",
         f"diagnose {arm}/m.json {log}",
-        f"compare {own} {log} --json {told}",
+        f"compare {items} {log} --json {result}",
     ):
         assert main(words.split()) == 0
         assert SAID[mistake] in capsys.readouterr().out, words
-        assert any(SAID[mistake] in line for line in json.loads(told.read_text())["warnings"])
+        assert any(SAID[mistake] in line for line in json.loads(result.read_text())["warnings"])
 
 
 def test_a_log_beside_a_model_of_another_is_judged_by_its_values():
     machine, (train, other) = runs("demo-arm")
     model = SimpleNamespace(beta=identify(observe(machine, [train])).beta, logs=())
     swapped = observe(machine, [replace(other, tau=other.tau[:, [1, 0, 2]])])
-    lines = [found.line for found in find_log_faults(machine, swapped, model)]
+    lines = [matches.line for matches in find_log_faults(machine, swapped, model)]
     assert any("joints 1 and 2: their torques look exchanged" in line for line in lines)
     assert find_log_faults(machine, observe(machine, [other]), model) == ()
 
@@ -218,9 +218,9 @@ def test_the_delay_that_is_not_detectable_raises_the_error_by_a_third(monkeypatc
     monkeypatch.setattr(log_faults, "THRESHOLDS", limits)
     noisy = np.random.default_rng(3).normal(size=log.tau.shape) * log.tau.std(axis=0)
     observation = observe(machine, [replace(log, tau=log.tau + noisy)])
-    (found, *_) = find_log_faults(machine, observation)
-    assert found.is_undetectable and found.line.startswith("Not detectable in these logs: ")
-    stated = found.line.partition("a delay below ")[2].split(";")[0].split(", ")
+    (matches, *_) = find_log_faults(machine, observation)
+    assert matches.is_undetectable and matches.line.startswith("Not detectable in these logs: ")
+    stated = matches.line.partition("a delay below ")[2].split(";")[0].split(", ")
     delays = {text.split()[-1]: 1e-3 * float(text.split()[0]) for text in stated}
     assert delays and max(delays.values()) < limits.max_delay
     seen = log_faults._gather_evidence(machine, observation)
@@ -254,8 +254,8 @@ def told_late(name, rng, hidden=(), lagged=((), 0.0), **late):
         for j in joints:
             values[samples:, j] = values[:-samples, j]
         log = replace(log, **{column: values})
-    found = find_log_faults(compiled(name), observe(compiled(name), [log]))
-    return [one.line for one in found if "late" in one.line or "filter" in one.line]
+    matches = find_log_faults(compiled(name), observe(compiled(name), [log]))
+    return [one.line for one in matches if "late" in one.line or "filter" in one.line]
 
 
 @pytest.mark.rotating("long tests of fit")

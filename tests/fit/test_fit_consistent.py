@@ -35,26 +35,26 @@ def fitted(request, tmp_path_factory):
 
 
 def test_standard_and_base_are_one_machine(fitted):
-    name, folder, told = fitted
+    name, folder, text = fitted
     spec = compiled(name).spec
-    chi = np.array([told["standard"][p.name] for p in spec.standard])
-    beta = np.array([p["value"] for p in told["parameters"]])
+    chi = np.array([text["standard"][p.name] for p in spec.standard])
+    beta = np.array([p["value"] for p in text["parameters"]])
     np.testing.assert_allclose(
         compiled(name).base_parameters(chi), beta, rtol=0, atol=1e-9 * np.abs(beta).max()
     )
-    assert told["method"] == "consistent" and told["valid"]
+    assert text["method"] == "consistent" and text["valid"]
     for joint in {p.joint for p in spec.standard if p.effect == "rigid_body"}:
-        body = compute_pseudo_inertia({p: told["standard"][f"{p}{joint}"] for p in INERTIAL})
+        body = compute_pseudo_inertia({p: text["standard"][f"{p}{joint}"] for p in INERTIAL})
         size = np.sqrt(np.diag(body))
         assert np.linalg.eigvalsh(body / np.outer(size, size))[0] > 0.0
-    assert load_model(folder / "m.json").fit.standard == told["standard"]
+    assert load_model(folder / "m.json").fit.standard == text["standard"]
 
 
 def test_the_robot_file_simulates_and_the_model_predicts_it(fitted, capsys):
-    _, folder, told = fitted
+    _, folder, text = fitted
     robot = read_robot(folder / "r.toml")
-    kept = {k: v for k, v in robot.parameters.items() if k in told["standard"]}
-    assert {k: float(v) for k, v in kept.items()} == {k: told["standard"][k] for k in kept}
+    rest = {k: v for k, v in robot.parameters.items() if k in text["standard"]}
+    assert {k: float(v) for k, v in rest.items()} == {k: text["standard"][k] for k in rest}
     log, report = folder / "b.parquet", folder / "c.json"
     simulate = f"simulate {folder / 'r.toml'} --duration 8 --rate 200 --seed 2 --out {log}"
     assert main(simulate.split()) == 0
@@ -64,8 +64,8 @@ def test_the_robot_file_simulates_and_the_model_predicts_it(fitted, capsys):
 
 def test_a_drawing_counts(fitted, tmp_path):
     """What no torque depends on is that of the drawing, where the robot file has one."""
-    name, folder, told = fitted
-    first = min(n[1:] for n in told["standard"] if n.startswith("M") and n[1:] in "12345")
+    name, folder, text = fitted
+    first = min(n[1:] for n in text["standard"] if n.startswith("M") and n[1:] in "12345")
     values = (0.5, 0.0, 0.0, 0.6, 0.0, 0.7, 0.0, 0.0, 0.0, 20.0)
     drawn = {f"{p}{first}": v for p, v in zip(INERTIAL, values, strict=True)}
 
@@ -73,9 +73,9 @@ def test_a_drawing_counts(fitted, tmp_path):
     path.write_text(replace_parameters(read_robot(name).text, drawn))
     fit = f"fit {path} {folder / 'a.parquet'} --method consistent --out {tmp_path / 'm.json'}"
     assert main(fit.split()) == 0
-    found = load_model(tmp_path / "m.json").fit.standard
-    assert found[f"M{first}"] == pytest.approx(20.0, rel=0.3)
-    assert abs(told["standard"][f"M{first}"] - 20.0) > abs(found[f"M{first}"] - 20.0)
+    result = load_model(tmp_path / "m.json").fit.standard
+    assert result[f"M{first}"] == pytest.approx(20.0, rel=0.3)
+    assert abs(text["standard"][f"M{first}"] - 20.0) > abs(result[f"M{first}"] - 20.0)
 
 
 CROSSED = """name = "crossed"
@@ -119,8 +119,8 @@ def test_a_machine_that_could_be_built_is_at_no_distance(name):
     beta = machine.K[:, : len(chi)] @ chi
     np.testing.assert_allclose(beta, compiled(name).base_parameters(chi), rtol=1e-9)
     root = np.diag(1.0 / (0.01 * np.abs(beta) + 1e-6))  # one percent
-    found = project_parameters(machine, beta, root)
-    assert found is not None and found.distance < 1e-2  # standard deviations
+    result = project_parameters(machine, beta, root)
+    assert result is not None and result.distance < 1e-2  # standard deviations
 
 
 @with_cases("name, carrier, rel", ("Fv2", "Fv2", 1e-3), ("ZZ2", "2", 1e-2))

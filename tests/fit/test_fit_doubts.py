@@ -67,8 +67,8 @@ def test_inertias_tell_the_unit_of_time_where_the_steps_do_not(log):
     verdict = verdict_of(clock(log, 90.0))
     assert not verdict.valid
     assert verdict.line.startswith("Not valid: the clock seems to be wrong: ")
-    told = float(verdict.line.split("motion were ")[1].split(" times")[0])
-    assert 50.0 < told < 200.0
+    text = float(verdict.line.split("motion were ")[1].split(" times")[0])
+    assert 50.0 < text < 200.0
 
 
 def test_a_torque_with_the_wrong_sign(log):
@@ -81,8 +81,8 @@ def test_a_torque_with_the_wrong_sign(log):
     assert "% on joint 2, not " in verdict.line
     assert any("is negative, which physics does not allow" in line for line in verdict.warnings)
     assert verdict.physically_consistent is False
-    own = verdict.by_joint["2"]
-    assert own.state == "undetermined" and verdict.line[11:] in own.why
+    item = verdict.by_joint["2"]
+    assert item.state == "undetermined" and verdict.line[11:] in item.why
 
 
 DEFECTS = {
@@ -166,8 +166,8 @@ def test_what_other_stages_tell_joins_in(log):
     assert verdict.line == f"Not valid: {swapped.line}" and verdict.warnings == (swapped.line,)
     states = {one.state for one in verdict.by_joint.values()}
     assert states == {"undetermined"}  # it is about all of them
-    own = dataclasses.replace(swapped, joints=("1", "2"))
-    by_joint = verdict_of(log, told=[own]).by_joint
+    local = dataclasses.replace(swapped, joints=("1", "2"))
+    by_joint = verdict_of(log, told=[local]).by_joint
     assert [by_joint[name].state for name in "123"] == ["undetermined", "undetermined", "good"]
     vague = DataWarning("joint 3: positions may be late", False)
     verdict = verdict_of(log, told=[vague])
@@ -176,9 +176,9 @@ def test_what_other_stages_tell_joins_in(log):
 
 
 def test_the_model_file_keeps_it_and_old_ones_have_none(log, tmp_path):
-    own, arm = observed_fit(clock(log, 1e3)), module("demo-arm")
+    items, arm = observed_fit(clock(log, 1e3)), module("demo-arm")
     derivation = Derivation(arm.model.robot, arm.model, arm.base)
-    model = assemble_model(derivation, arm.emitted, *own)
+    model = assemble_model(derivation, arm.emitted, *items)
     save_model(tmp_path / "m.json", model)
     again = load_model(tmp_path / "m.json")
     assert again.fit.verdict == model.fit.verdict
@@ -226,9 +226,9 @@ def fit_and_errors(name, seed, hide=None, rate=500.0):
     )
     made = simulate(module(name).model.robot, settings)
     fit, errors = observed_fit(made, compiled(name))[1], {}
-    for base, found in zip(compiled(name).spec.base, fit.parameters, strict=True):
+    for base, item in zip(compiled(name).spec.base, fit.parameters, strict=True):
         value = sum(x.value * made.truth.parameters.get(x.parameter, 0.0) for x in base.terms)
-        errors[base.name] = abs(found.value - value) / found.sigma
+        errors[base.name] = abs(item.value - value) / item.sigma
     return fit, errors
 
 
@@ -243,8 +243,8 @@ BIASED = [
 def test_a_missing_effect_is_in_the_sigmas_of_what_carries_it(name, seed, effect):
     fit, errors = fit_and_errors(name, seed, effect)
     assert max(error for who, error in errors.items() if who.startswith("F")) < 4.0
-    (told,) = (line for line in fit.sentences if TOLD in line)
-    assert "`modeler diagnose`" in told
+    (lines,) = (line for line in fit.sentences if TOLD in line)
+    assert "`modeler diagnose`" in lines
 
 
 def printed(capsys, words):
@@ -263,10 +263,10 @@ def test_the_terminal_ends_with_the_verdict_and_the_command_to_go_on_with(
     assert verdict.startswith("Valid for torque prediction: ")
     assert following == "next: modeler compare m.json good.parquet --report compare.html"
     assert following.removeprefix("next: ") in (tmp_path / "m.html").read_text()
-    *told, verdict, following = printed(capsys, "fit emps poor.parquet --out p.json")
+    *text, verdict, following = printed(capsys, "fit emps poor.parquet --out p.json")
     assert verdict.startswith("Valid for torque prediction on similar motions only: ")
     assert following == "next: modeler diagnose p.json poor.parquet --report diagnosis.html"
-    assert sum(line.startswith("parameter ") for line in told) == 1  # one table
+    assert sum(line.startswith("parameter ") for line in text) == 1  # one table
 
 
 DOWN = np.array([0.0, 0.0, -9.81])

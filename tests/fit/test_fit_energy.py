@@ -38,8 +38,8 @@ def repeated(arm):
         seen = observe(arm, [noisy_log(arm, seed, seconds=10)])
         fits.append((seen, identify_energy(arm, seen)))
         ordinary = fits[-1][1].rows.estimate(seen.names, "ordinary")
-        for method, found in (("weighted", fits[-1][1].result), ("ordinary", ordinary)):
-            scores[method].append((found.beta - truth) / np.sqrt(np.diag(found.covariance)))
+        for method, result in (("weighted", fits[-1][1].result), ("ordinary", ordinary)):
+            scores[method].append((result.beta - truth) / np.sqrt(np.diag(result.covariance)))
     return fits, {method: np.array(values) for method, values in scores.items()}
 
 
@@ -60,8 +60,8 @@ def test_windows_at_rest_do_not_weigh_without_bound():
     beta, z = np.array([1.0, -2.0, 0.5]), []
     for _ in range(40):
         y = W @ beta + np.sqrt(shares[:, 0] + 0.01) * random.normal(size=120)
-        found = solve_heteroscedastic(W, y, shares, ("A", "B", "C"), np.zeros(120, dtype=int))
-        z.append((found.beta - beta) / np.sqrt(np.diag(found.covariance)))
+        fit = solve_heteroscedastic(W, y, shares, ("A", "B", "C"), np.zeros(120, dtype=int))
+        z.append((fit.beta - beta) / np.sqrt(np.diag(fit.covariance)))
     assert np.sqrt(np.mean(np.square(z))) == pytest.approx(1.0, abs=0.25)
 
 
@@ -73,11 +73,11 @@ def test_neighbours_that_repeat_each_other_raise_the_sigmas():
     for _ in range(30):
         white = random.normal(size=406)
         noise = np.convolve(white, np.ones(7), mode="valid")  # correlated over seven windows
-        found = solve_heteroscedastic(
+        fit = solve_heteroscedastic(
             W, W @ [1.0, 2.0] + noise, np.ones((400, 1)), ("A", "B"), np.zeros(400, dtype=int)
         )
-        z.append((found.beta - [1.0, 2.0]) / np.sqrt(np.diag(found.covariance)))
-        raised.append(found.autocorrelation_factor)
+        z.append((fit.beta - [1.0, 2.0]) / np.sqrt(np.diag(fit.covariance)))
+        raised.append(fit.autocorrelation_factor)
     assert np.median(raised) > 1.8 and np.sqrt(np.mean(np.square(z))) < 1.4
 
 
@@ -159,11 +159,11 @@ def test_it_is_saved_and_read_and_judged_by_its_own_errors(arm, fitted):
     assert identify(seen).to_json()["energy"] is None
 
     every, sigma = np.ones(len(seen.y), dtype=bool), NOISE
-    own, torque = (
+    items, torque = (
         cross_validate(build_base_equations(seen), every, sigma, refit).errors
         for refit in (fit.fit_without, None)
     )
-    assert np.all(own > torque)  # segments are left out of the energies, not of the torques
+    assert np.all(items > torque)  # segments are left out of the energies, not of the torques
 
 
 def test_left_out_stretches_are_left_out_of_the_energies(arm, fitted):

@@ -30,13 +30,13 @@ def problem(seed=0, rows=(400, 300), noise=(0.1, 2.0), beta=(1.0, -20.0, 0.3, 5.
 def test_ordinary_is_numpys_and_its_covariance_is_the_textbooks():
     W, _, joint, measured = problem()
     y = measured(np.random.default_rng(1))
-    found = solve_least_squares(compress_rows(W, y, joint, 2, NAMES), "ordinary")
+    fit = solve_least_squares(compress_rows(W, y, joint, 2, NAMES), "ordinary")
     beta, squares, _, _ = np.linalg.lstsq(W, y, rcond=None)
-    np.testing.assert_allclose(found.beta, beta, rtol=1e-10)
+    np.testing.assert_allclose(fit.beta, beta, rtol=1e-10)
     variance = squares[0] / (len(y) - 4)
-    np.testing.assert_allclose(found.covariance, variance * np.linalg.inv(W.T @ W), rtol=1e-9)
-    assert found.condition_number == pytest.approx(np.linalg.cond(W), rel=1e-9)
-    assert found.condition_scaled == pytest.approx(
+    np.testing.assert_allclose(fit.covariance, variance * np.linalg.inv(W.T @ W), rtol=1e-9)
+    assert fit.condition_number == pytest.approx(np.linalg.cond(W), rel=1e-9)
+    assert fit.condition_scaled == pytest.approx(
         np.linalg.cond(W / np.linalg.norm(W, axis=0)), rel=1e-9
     )
 
@@ -44,20 +44,20 @@ def test_ordinary_is_numpys_and_its_covariance_is_the_textbooks():
 def test_weights_are_a_fixed_point_and_the_weighted_normal_equations_hold():
     W, _, joint, measured = problem()
     y = measured(np.random.default_rng(2))
-    found = solve_least_squares(compress_rows(W, y, joint, 2, NAMES), "weighted")
-    assert found.is_converged and 1 < found.iterations < 100
-    weight = 1.0 / found.sigma[joint]
+    fit = solve_least_squares(compress_rows(W, y, joint, 2, NAMES), "weighted")
+    assert fit.is_converged and 1 < fit.iterations < 100
+    weight = 1.0 / fit.sigma[joint]
     X = W * weight[:, None]
-    np.testing.assert_allclose(X.T @ (weight * (y - W @ found.beta)), 0.0, atol=1e-6)
+    np.testing.assert_allclose(X.T @ (weight * (y - W @ fit.beta)), 0.0, atol=1e-6)
     covariance = np.linalg.inv(X.T @ X)
-    np.testing.assert_allclose(found.covariance, covariance, rtol=1e-8)
+    np.testing.assert_allclose(fit.covariance, covariance, rtol=1e-8)
     leverage = np.einsum("ri,ij,rj->r", X, covariance, X)
     assert leverage.sum() == pytest.approx(4.0)
     for j in (0, 1):
-        own = joint == j
-        expected = np.sum((y - W @ found.beta)[own] ** 2) / (own.sum() - leverage[own].sum())
-        assert found.sigma[j] ** 2 == pytest.approx(expected, rel=1e-6)
-    np.testing.assert_allclose(found.sigma, (0.1, 2.0), rtol=0.15)
+        mask = joint == j
+        expected = np.sum((y - W @ fit.beta)[mask] ** 2) / (mask.sum() - leverage[mask].sum())
+        assert fit.sigma[j] ** 2 == pytest.approx(expected, rel=1e-6)
+    np.testing.assert_allclose(fit.sigma, (0.1, 2.0), rtol=0.15)
 
 
 @pytest.mark.parametrize("method", ["ordinary", "weighted"])
@@ -69,26 +69,26 @@ def test_exact_data_joints_without_rows_and_without_torque_are_no_trouble(method
         compress_rows(W, clean, joint * 2, 4, NAMES),
         compress_rows(W * silent, clean * silent[:, 0], joint, 2, NAMES),
     ):
-        found = solve_least_squares(data, method)
-        np.testing.assert_allclose(found.beta, (1.0, -20.0, 0.3, 5.0), rtol=1e-9)
-        assert np.isfinite(found.covariance).all() and found.is_converged
+        fit = solve_least_squares(data, method)
+        np.testing.assert_allclose(fit.beta, (1.0, -20.0, 0.3, 5.0), rtol=1e-9)
+        assert np.isfinite(fit.covariance).all() and fit.is_converged
 
 
 def test_what_the_data_cannot_tell_is_set_aside_by_name():
     W, _, joint, measured = problem()
     y = measured(np.random.default_rng(6))
     twin = np.column_stack([W, 3.0 * W[:, 1] - W[:, 0], np.zeros(len(y))])
-    found = solve_least_squares(compress_rows(twin, y, joint, 2, (*NAMES, "E", "F")))
-    assert len(found.rank.kept_columns) == 4 and len(found.rank.dropped_columns) == 2
-    idle, tangled = found.rank.dropped_columns
+    fit = solve_least_squares(compress_rows(twin, y, joint, 2, (*NAMES, "E", "F")))
+    assert len(fit.rank.kept_columns) == 4 and len(fit.rank.dropped_columns) == 2
+    idle, tangled = fit.rank.dropped_columns
     assert idle.name == "F" and "not excited" in idle.describe()
     assert tangled.name in "ABE" and set(tangled.into) == set("ABE") - {tangled.name}
     assert f"{tangled.name} cannot be distinguished from" in tangled.describe()
-    assert found.rank.last_kept > 1e-3 and found.rank.first_dropped < 1e-12
+    assert fit.rank.last_kept > 1e-3 and fit.rank.first_dropped < 1e-12
     place = [*NAMES, "E", "F"].index(tangled.name)
-    assert found.beta[place] == 0.0 and found.covariance[place, place] == 0.0
+    assert fit.beta[place] == 0.0 and fit.covariance[place, place] == 0.0
     plain = solve_least_squares(compress_rows(W, y, joint, 2, NAMES))
-    np.testing.assert_allclose(twin @ found.beta, W @ plain.beta, atol=1e-8)
+    np.testing.assert_allclose(twin @ fit.beta, W @ plain.beta, atol=1e-8)
     none = find_independent_columns(np.zeros((5, 2)), ("A", "B"))
     assert none.kept_columns == () and [t.name for t in none.dropped_columns] == ["A", "B"]
 
@@ -156,15 +156,15 @@ def test_the_values_are_those_of_columns_for_each_direction():
     W = np.column_stack(columns)
     beta, squares, _, _ = np.linalg.lstsq(W, seen.y, rcond=None)
     C = squares[0] / (len(seen.y) - W.shape[1]) * np.linalg.inv(W.T @ W)
-    found = {item.name: item for item in fit.directions}
-    assert set(found) == {name for name in names if name[-1] in "+-"}
+    table = {item.name: item for item in fit.directions}
+    assert set(table) == {name for name in names if name[-1] in "+-"}
     for i, name in enumerate(names):
-        if name in found:
-            assert found[name].value == pytest.approx(beta[i], rel=1e-8)
+        if name in table:
+            assert table[name].value == pytest.approx(beta[i], rel=1e-8)
             # The sigmas of the fit are raised for residuals with a memory, by a little.
-            assert 0.99 < found[name].sigma / C[i, i] ** 0.5 < 1.3
-    assert found["Fv1-"].relation == "Fv1- = Fv1 - Fva1" and found["Fv1-"].unit == "N m s/rad"
-    assert found["Fs2+"].relation == "Fs2+ = Fs2 + Off2" and found["Fs2+"].unit == "N m"
+            assert 0.99 < table[name].sigma / C[i, i] ** 0.5 < 1.3
+    assert table["Fv1-"].relation == "Fv1- = Fv1 - Fva1" and table["Fv1-"].unit == "N m s/rad"
+    assert table["Fs2+"].relation == "Fs2+ = Fs2 + Off2" and table["Fs2+"].unit == "N m"
     # they are printed and saved
     assert "Fv1+ = Fv1 + Fva1" in "\n".join(fit.format_lines())
     raw = json.loads(json.dumps(fit.to_json(), allow_nan=False))
@@ -177,6 +177,6 @@ def test_where_friction_has_one_law_there_is_nothing_to_tell():
     _, _, fit = fitted_friction(("viscous", "coulomb", "offset"))
     assert fit.directions == () and "direction" not in "\n".join(fit.format_lines())
     _, _, fit = fitted_friction(("viscous", "coulomb", "asymmetric_viscous"))
-    found = {item.name: item for item in fit.directions}
-    assert found["Fs1+"].value == found["Fs1-"].value and found["Fs1+"].relation == "Fs1+ = Fs1"
-    assert found["Fv1+"].value != found["Fv1-"].value
+    table = {item.name: item for item in fit.directions}
+    assert table["Fs1+"].value == table["Fs1-"].value and table["Fs1+"].relation == "Fs1+ = Fs1"
+    assert table["Fv1+"].value != table["Fv1-"].value

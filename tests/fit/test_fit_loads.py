@@ -54,9 +54,9 @@ def test_what_is_told_is_the_model_that_is_written(arm, tmp_path, seed, more):
     for joint in seen.joints:
         assert bare[joint.joint.name] == pytest.approx(joint.relative_error, rel=0.05)
     worst = 100.0 * max(joint.relative_error for joint in seen.joints)
-    told = re.search(r"at most ([\d.]+) % bare and ([\d.]+) % loaded", read.fit.verdict.line)
-    assert told, read.fit.verdict.line
-    assert 0.95 * worst < float(told[1]) < 1.5 * worst
+    text = re.search(r"at most ([\d.]+) % bare and ([\d.]+) % loaded", read.fit.verdict.line)
+    assert text, read.fit.verdict.line
+    assert 0.95 * worst < float(text[1]) < 1.5 * worst
     assert read.fit.verdict.valid_for == ("parameters" if more == 0.0 else "prediction")
 
 
@@ -109,18 +109,18 @@ def test_the_load_takes_the_force_of_a_point_mass(name, link, g, reach):
     loaded = add_known_load(model, mass, c)  # the link that carries is found
     change = np.array([p.value for p in loaded.fit.parameters])
     change -= [p.value for p in model.fit.parameters]
-    found = compiled.base_regressor(q, qd, qdd) @ change
-    np.testing.assert_allclose(found, expected, atol=2e-5 * np.abs(expected).max())
+    actual = compiled.base_regressor(q, qd, qdd) @ change
+    np.testing.assert_allclose(actual, expected, atol=2e-5 * np.abs(expected).max())
 
 
 @with_cases(
-    "mass, centre, link, told",
+    "mass, centre, link, text",
     (0.0, (0, 0, 0), None, "got 0 kg at 0, 0, 0; expected a mass above 0"),
     *((1.0, centre, None, "x, y, z of its centre") for centre in ((0, 0, np.inf), (0, 0))),
     (1.0, (0, 0, 0), "9", "no link 9; puma560 has 1, 2, 3, 4, 5, 6"),
 )
-def test_what_can_be_no_load_is_refused(mass, centre, link, told):
-    with pytest.raises(DataError, match=told):
+def test_what_can_be_no_load_is_refused(mass, centre, link, text):
+    with pytest.raises(DataError, match=text):
         add_known_load(bare("puma560", 1)[1], mass, centre, link)
 
 
@@ -172,11 +172,11 @@ def test_drive_gains_are_refused_where_the_mass_is_not_told(tmp_path, capsys):
 def test_a_mass_that_is_not_told_is_not_tested_and_a_sum_is_called_a_sum(logs):
     for mass in (UNTOLD, 1.5 * UNTOLD):
         assert fit_loaded(logs, f"--payload-mass {mass} --json {logs}/f.json") == 0
-        told = json.loads((logs / "f.json").read_text())
-        assert not any("weighs" in doubt for doubt in told["warnings"])
-        assert f"its mass of {mass:g} kg is taken as given" in "\n".join(told["sentences"])
+        data = json.loads((logs / "f.json").read_text())
+        assert not any("weighs" in doubt for doubt in data["warnings"])
+        assert f"its mass of {mass:g} kg is taken as given" in "\n".join(data["sentences"])
     assert fit_loaded(logs, f"--json {logs}/f.json") == 0
-    told = json.loads((logs / "f.json").read_text())
-    loads = {load["name"]: load["value"] for load in told["loads"]}
+    data = json.loads((logs / "f.json").read_text())
+    loads = {load["name"]: load["value"] for load in data["loads"]}
     assert "M3_load" not in loads and loads["M3R_load"] > 1.1 * UNTOLD
-    assert f"load: M3R_load = M3 + {1.0 / B**2:.4g}*YY3" in told["sentences"]
+    assert f"load: M3R_load = M3 + {1.0 / B**2:.4g}*YY3" in data["sentences"]

@@ -253,9 +253,9 @@ def test_what_is_wrong_in_one_window_is_not_said_of_all(small_windows):
     log = noisy_log(seconds=60.0)
     tau = log.tau.copy()
     tau[1600, 0] = 1e15
-    with pytest.raises(WholeLogNeeded, match=r"tau of joint 1 is 1e\+15 at 8 s") as told:
+    with pytest.raises(WholeLogNeeded, match=r"tau of joint 1 is 1e\+15 at 8 s") as result:
         streamed_log(log, Processing(keep_damaged=True), tau=tau)
-    assert "all windows" not in str(told.value)
+    assert "all windows" not in str(result.value)
 
 
 def test_a_time_that_changes_its_unit_is_told_by_the_windows(small_windows, monkeypatch):
@@ -402,16 +402,16 @@ def fitted(model, log, processing, method):
     return observation, judge_fit(model, observation, result)
 
 
-def assert_same(kept: Any, passed: Any, where: str = "") -> None:
+def assert_same(stored: Any, passed: Any, where: str = "") -> None:
     """Equal but for the rounding of numbers."""
-    if isinstance(kept, dict | list | tuple):
-        assert len(kept) == len(passed), where
-        for key in kept if isinstance(kept, dict) else range(len(kept)):
-            assert_same(kept[key], passed[key], f"{where}.{key}")
-    elif isinstance(kept, float):
-        assert passed == pytest.approx(kept, rel=1e-9, abs=1e-12), where
+    if isinstance(stored, dict | list | tuple):
+        assert len(stored) == len(passed), where
+        for key in stored if isinstance(stored, dict) else range(len(stored)):
+            assert_same(stored[key], passed[key], f"{where}.{key}")
+    elif isinstance(stored, float):
+        assert passed == pytest.approx(stored, rel=1e-9, abs=1e-12), where
     else:
-        assert passed == kept, where
+        assert passed == stored, where
 
 
 PLAIN = Processing(position_cutoff=0.0, parallel_cutoff=0.0, decimation=1, derivatives="log")
@@ -434,13 +434,13 @@ SMOOTH = Processing(position_cutoff=0.0, parallel_cutoff=20.0, derivatives="log"
 def test_a_fit_without_w_is_the_fit_with_it(monkeypatch, name, processing, memory, method):
     model = compiled(name)
     log = passed_log(model, memory, 1.0 if name == "wrist" else 0.1)
-    kept, expected = fitted(model, log, processing, method)
+    stored, expected = fitted(model, log, processing, method)
     monkeypatch.setattr(passing, "KEPT", 0)
     limits = dataclasses.replace(segments.THRESHOLDS, filter_block_samples=50)
     monkeypatch.setattr(segments, "THRESHOLDS", limits)  # fewer samples than lags
-    observation, found = fitted(model, log, processing, method)
-    assert len(kept.stretches) == 2 and not kept.used.all()
-    assert "columns" in vars(kept)
+    observation, fit = fitted(model, log, processing, method)
+    assert len(stored.stretches) == 2 and not stored.used.all()
+    assert "columns" in vars(stored)
     assert ("columns" in vars(observation)) is (method == "robust")
-    np.testing.assert_array_equal(thin_rows(model, observation).W, thin_rows(model, kept).W)
-    assert_same(expected.to_json(), found.to_json())
+    np.testing.assert_array_equal(thin_rows(model, observation).W, thin_rows(model, stored).W)
+    assert_same(expected.to_json(), fit.to_json())

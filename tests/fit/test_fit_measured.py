@@ -77,11 +77,11 @@ def results(name: str) -> tuple[api.IdentifiedModel, api.Comparison]:
 )
 def test_held_out_errors_are_below_the_published_ones(robot):
     model, comparison = results(robot)
-    found = {item.joint.name: 100 * item.relative_error for item in comparison.joints}
+    table = {item.joint.name: 100 * item.relative_error for item in comparison.joints}
     limits = {str(j): limit for j, limit in enumerate(PUBLISHED[robot].residuals, start=1)}
     limits |= {str(j): limit for (name, j), limit in EXCEPTIONS.items() if name == robot}
-    assert found.keys() == limits.keys()
-    assert {joint: error for joint, error in found.items() if error >= limits[joint]} == {}
+    assert table.keys() == limits.keys()
+    assert {joint: error for joint, error in table.items() if error >= limits[joint]} == {}
     verdict, (valid_for, words) = model.fit.verdict, PUBLISHED[robot].verdict
     assert verdict.valid_for == valid_for and words in verdict.line, verdict.line
     assert verdict.valid is (valid_for != "nothing")
@@ -102,8 +102,8 @@ def test_other_measured_logs_make_no_model(robot, log, words):
 @slow_rotating("fits of measured logs")
 def test_every_exception_is_still_needed():
     for (robot, joint), limit in EXCEPTIONS.items():
-        found = 100 * results(robot)[1].joints[joint - 1].relative_error
-        assert PUBLISHED[robot].residuals[joint - 1] < found < limit
+        actual = 100 * results(robot)[1].joints[joint - 1].relative_error
+        assert PUBLISHED[robot].residuals[joint - 1] < actual < limit
 
 
 def test_emps_published_values():
@@ -112,11 +112,11 @@ def test_emps_published_values():
     They filter at 100 Hz and decimate to 40 Hz, a parallel cut-off of 16 Hz.
     """
     model, _ = results("emps")
-    found = {parameter.name: parameter.value for parameter in model.fit.parameters}
-    assert found["M1"] == pytest.approx(95.1089, rel=0.005)
-    assert found["Fv1"] == pytest.approx(203.5034, rel=0.01)
-    assert found["Fs1"] == pytest.approx(20.3935, rel=0.01)
-    assert found["Off1"] == pytest.approx(-3.1648, rel=0.02)
+    table = {parameter.name: parameter.value for parameter in model.fit.parameters}
+    assert table["M1"] == pytest.approx(95.1089, rel=0.005)
+    assert table["Fv1"] == pytest.approx(203.5034, rel=0.01)
+    assert table["Fs1"] == pytest.approx(20.3935, rel=0.01)
+    assert table["Off1"] == pytest.approx(-3.1648, rel=0.02)
     assert all(parameter.essential for parameter in model.fit.parameters)
     assert 100 * model.fit.relative_error < 3.96
     assert model.fit.processing.position_cutoff == pytest.approx(100.0, rel=0.2)
@@ -127,10 +127,10 @@ def test_emps_published_values():
 def test_tx40_published_values():
     """Janot, Vandanjon, Gautier 2014, of the same robot and log: the columns that are excited."""
     parameters = results("tx40")[0].fit.parameters
-    found = {parameter.name: parameter.value for parameter in parameters}
+    table = {parameter.name: parameter.value for parameter in parameters}
     published = read_pairs("""
         Fv1 8.05 Fv2 5.53 Fv3 1.97 Fv4 1.11 Fs1 7.14 Fs2 8.26 Fs3 6.34 Fs4 2.48 Ia3 0.0988
         Ia4 0.0313 ZZ1R 1.248 ZZ2R 1.080 MX2R 2.241 Iam6 0.00964 Fvm6 0.616 Fsm6 1.95
     """)
     for name, value in published.items():
-        assert found[name] == pytest.approx(value, rel=0.1), name
+        assert table[name] == pytest.approx(value, rel=0.1), name

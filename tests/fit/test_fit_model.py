@@ -59,9 +59,9 @@ def test_a_simulated_arm_comes_back_within_its_sigmas(fitted):
     residual = seen.y - seen.W @ fit.beta
     assert fit.relative_error == pytest.approx(np.linalg.norm(residual) / np.linalg.norm(seen.y))
     for j, joint in enumerate(fit.joints):
-        own = seen.row_joint == j
-        assert joint.rms == pytest.approx(np.sqrt(np.mean(residual[own] ** 2)))
-        expected = np.linalg.norm(residual[own]) / np.linalg.norm(seen.y[own])
+        mask = seen.row_joint == j
+        assert joint.rms == pytest.approx(np.sqrt(np.mean(residual[mask] ** 2)))
+        expected = np.linalg.norm(residual[mask]) / np.linalg.norm(seen.y[mask])
         assert joint.relative_error == pytest.approx(expected)
     raw, text = (
         json.loads(json.dumps(fit.to_json(), allow_nan=False)),
@@ -93,8 +93,8 @@ def test_an_unknown_load_is_weighed_and_a_known_mass_goes_to_the_measurement():
     fit = identify_with_payloads(robot, seen, [Payload(("loaded",))])
     loads = {parameter.name: parameter for parameter in fit.loads}
     for letters in ("M", "MX", "MY"):
-        found = loads[f"{letters}3_load"]
-        assert abs(found.value - LOAD[letters]) < 4.0 * found.sigma and found.sigma < 0.05
+        result = loads[f"{letters}3_load"]
+        assert abs(result.value - LOAD[letters]) < 4.0 * result.sigma and result.sigma < 0.05
     assert len(fit.parameters) == len(robot.spec.base) == len(fit.covariance)
     # Only differences of the axial inertias of a link show: at least one letter is grouped.
     assert 0 < len(fit.loads) < 11 and "M3_load" in "\n".join(fit.format_lines())
@@ -302,11 +302,11 @@ def saved_text(tmp_path_factory) -> str:
 
 @pytest.mark.digits
 def test_a_saved_model_compiles_and_predicts_the_same(saved_text, tmp_path):
-    again, own = read(tmp_path / "m.json", saved_text.encode()), compiled("two-link")
-    log = exact_log(own, some_beta(own), seconds=1)
+    again, item = read(tmp_path / "m.json", saved_text.encode()), compiled("two-link")
+    log = exact_log(item, some_beta(item), seconds=1)
     motion = log.q, log.qd, log.qdd
     torque = again.compile().inverse_dynamics(*motion, again.beta)
-    np.testing.assert_allclose(torque, own.inverse_dynamics(*motion, again.beta), atol=1e-9)
+    np.testing.assert_allclose(torque, item.inverse_dynamics(*motion, again.beta), atol=1e-9)
     np.testing.assert_allclose(torque, log.tau, atol=0.2)
 
 
@@ -410,7 +410,7 @@ def test_whoever_makes_the_checksums_fit_gets_a_line_or_a_model_that_can_be_used
 
 def test_a_changed_robot_text_never_gives_another_robot(saved_text, tmp_path):
     """With checksums that fit: it gives the same C, no robot, or it is reported."""
-    told = 0
+    message = 0
     for seed in range(16):
         raw, draw = json.loads(saved_text), random.Random(f"robot {seed}")
         text = raw["robot_text"]
@@ -423,5 +423,5 @@ def test_a_changed_robot_text_never_gives_another_robot(saved_text, tmp_path):
             assert compile(model).spec == model.spec
         except ModelerError as error:
             assert "\n" not in str(error)
-            told += 1
-    assert told > 5
+            message += 1
+    assert message > 5

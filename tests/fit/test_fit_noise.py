@@ -85,9 +85,9 @@ def test_sigmas_hold_the_noise_of_the_positions(measured, seed):
 def test_what_the_noise_would_have_bent_is_said():
     _, fine = fitted(np.random.default_rng(4), counts(2**20))
     _, coarse = fitted(np.random.default_rng(4), white(5e-2))
-    told = "the widest cut-offs and the chosen ones differ by"
-    assert not any(told in line for line in fine.sentences)
-    assert any(told in line and "sigma (" in line for line in coarse.sentences)
+    text = "the widest cut-offs and the chosen ones differ by"
+    assert not any(text in line for line in fine.sentences)
+    assert any(text in line and "sigma (" in line for line in coarse.sentences)
     assert coarse.processing.parallel_cutoff < fine.processing.parallel_cutoff
     assert coarse.bands.limiting_joint == "1" and fine.bands.limiting_joint is None
     assert fine.verdict.valid_for == "parameters"

@@ -89,11 +89,15 @@ ONE, ALL = (1,), (0, 1, 2)
 @with_cases(
     "rest, commands",
     *(
-        (rest, own)
+        (rest, items)
         for rest in (ONE, ALL)
-        for own in (COMMANDS, OTHERS, FITS[::2], FITS[1::2], LOADED)
+        for items in (COMMANDS, OTHERS, FITS[::2], FITS[1::2], LOADED)
     ),
-    *(pytest.param(rest, own, marks=ROTATING) for rest in (ONE, ALL) for own in (LONG_FITS, BOTH)),
+    *(
+        pytest.param(rest, items, marks=ROTATING)
+        for rest in (ONE, ALL)
+        for items in (LONG_FITS, BOTH)
+    ),
 )
 def test_a_result_or_one_clear_line(folder, rest, commands, capsys, monkeypatch):
     """`main` raises whatever is no ModelerError: a traceback fails."""
@@ -107,14 +111,14 @@ def test_a_result_or_one_clear_line(folder, rest, commands, capsys, monkeypatch)
         written(name, rest, *more)
     (folder / "own.json").unlink(missing_ok=True)
     for words in commands:
-        given = [f"{w}.csv" if w in ("R", "RL", "RI", "RLI") else w for w in words.split()]
+        inputs = [f"{w}.csv" if w in ("R", "RL", "RI", "RLI") else w for w in words.split()]
         with warnings.catch_warnings():
             warnings.simplefilter("error", RuntimeWarning)
-            status = main(given)
-        told = capsys.readouterr()
+            status = main(inputs)
+        out = capsys.readouterr()
         assert status in (0, 1), words
-        lines = [line for line in told.err.splitlines() if line.startswith("modeler: ")]
+        lines = [line for line in out.err.splitlines() if line.startswith("modeler: ")]
         if status == 1 and words.split()[1] != "own.json":
-            assert len(lines) == 1 and len(lines[0]) > 40, f"{words}: {told.err}"
+            assert len(lines) == 1 and len(lines[0]) > 40, f"{words}: {out.err}"
         else:
-            assert told.out.strip() or status, words
+            assert out.out.strip() or status, words

@@ -78,14 +78,14 @@ def parameters(seed: int, model: CompiledModel) -> np.ndarray:
 def motion(rng: np.random.Generator, joints: int, duration: float) -> tuple[np.ndarray, ...]:
     """Time, q, qd, qdd of a Fourier series."""
     t = np.arange(0.0, duration, 1.0 / RATE)
-    base, found = 2.0 * np.pi * 0.15, [np.zeros((len(t), joints)) for _ in range(3)]
+    base, values = 2.0 * np.pi * 0.15, [np.zeros((len(t), joints)) for _ in range(3)]
     for j in range(joints):
         for k in range(1, 6):
             a, p, w = rng.normal() / k, rng.uniform(0.0, 2.0 * np.pi), base * k
-            found[0][:, j] += a * np.sin(w * t + p)
-            found[1][:, j] += a * w * np.cos(w * t + p)
-            found[2][:, j] -= a * w**2 * np.sin(w * t + p)
-    return t, *found
+            values[0][:, j] += a * np.sin(w * t + p)
+            values[1][:, j] += a * w * np.cos(w * t + p)
+            values[2][:, j] -= a * w**2 * np.sin(w * t + p)
+    return t, *values
 
 
 def coloured_noise(rng: np.random.Generator, count: int) -> np.ndarray:
@@ -100,13 +100,13 @@ def logs(scene: Scene, seed: int, robot: str = "two-link") -> list[tuple[LogName
     """The logs of a fleet."""
     model = compiled(robot)
     rng = np.random.default_rng([11, seed])
-    usual, found = parameters(seed, model), []
+    usual, values = parameters(seed, model), []
     kinds = np.array([base.kind in ("friction", "offset") for base in model.spec.base])
     names = [base.name for base in model.spec.base]
     for m in range(scene.machines):
-        own = usual * np.where(kinds, 1.0 + scene.apart * rng.normal(size=len(usual)), 1.0)
+        actual = usual * np.where(kinds, 1.0 + scene.apart * rng.normal(size=len(usual)), 1.0)
         for p in range(scene.periods):
-            beta = own * np.where(kinds, 1.0 + scene.daily * rng.normal(size=len(usual)), 1.0)
+            beta = actual * np.where(kinds, 1.0 + scene.daily * rng.normal(size=len(usual)), 1.0)
             gains = np.ones(len(model.spec.joints))
             for plant in scene.planted:
                 if plant.machine == m and plant.name.startswith("gain"):
@@ -115,13 +115,13 @@ def logs(scene: Scene, seed: int, robot: str = "two-link") -> list[tuple[LogName
                     beta = beta + plant.by_period[p] * _load(model)
                 elif plant.machine == m:
                     beta[names.index(plant.name)] *= 1.0 + plant.by_period[p]
-            found.append(
+            values.append(
                 (
                     LogName(f"r{m + 1}", f"day{p + 1}", f"r{m + 1}/day{p + 1}.csv"),
                     _log(model, beta, gains, scene, rng, p),
                 )
             )
-    return found
+    return values
 
 
 def _load(model: CompiledModel) -> np.ndarray:
@@ -157,9 +157,9 @@ def summaries(scene: Scene, seed: int, robot: str = "two-link") -> tuple[LogSumm
     It is not asked whether logs fit the robot at all, which takes longer than all else.
     """
     model, processing = compiled(robot), PROCESSING
-    found: list[LogSummary] = []
+    values: list[LogSummary] = []
     with patch("modeler.validation.fleet_logs.find_log_faults", return_value=()):
         for named, log in logs(scene, seed, robot):
-            found.append(summarise_log(model, log, named, processing))
-            processing = found[0].processing or processing
-    return tuple(found)
+            values.append(summarise_log(model, log, named, processing))
+            processing = values[0].processing or processing
+    return tuple(values)

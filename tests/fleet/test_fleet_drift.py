@@ -44,23 +44,23 @@ PLANTED = {
 @pytest.mark.parametrize("case", ["Coulomb on one day", *rotating(*[*PLANTED][1:])])
 def test_what_is_planted_is_found_and_nothing_else(case: str) -> None:
     name, plan, shape, percent = PLANTED[case]
-    found = fleet(Scene(machines=2, periods=DAYS, planted=(Planted(1, name, plan),)), 901)
+    result = fleet(Scene(machines=2, periods=DAYS, planted=(Planted(1, name, plan),)), 901)
     parameter = name.replace("gain", "gain ")
-    assert told(found) == [("r2", parameter, shape)]
-    [one] = found.findings
+    assert told(result) == [("r2", parameter, shape)]
+    [one] = result.findings
     assert one.change_percent == pytest.approx(percent, rel=0.35)
     size = one.change if one.quantity.unit == "%" else one.change_percent / 100.0 * abs(one.before)
     assert abs(size - one.change) < 1e-9 and abs(one.score) > 4.0 and one.p_value < 0.025
-    assert found.verdict == "drift" and found.to_json()["findings"][0]["machine"] == "r2"
+    assert result.verdict == "drift" and result.to_json()["findings"][0]["machine"] == "r2"
 
 
 def test_an_offset_that_leaps_is_found() -> None:
     plan = (0.0,) * 2 + (4.0,) * 2
-    found = fleet(Scene(machines=2, periods=4, planted=(Planted(0, "Off1", plan),)), 7, "demo-arm")
-    assert told(found) == [("r1", "Off1", "jump")]
-    assert found.findings[0].change_percent is None  # an offset has no size of its own
+    result = fleet(Scene(machines=2, periods=4, planted=(Planted(0, "Off1", plan),)), 7, "demo-arm")
+    assert told(result) == [("r1", "Off1", "jump")]
+    assert result.findings[0].change_percent is None  # an offset has no size of its own
     assert "joint 1: constant torque offset (Off1) leaps " in describe_finding(
-        found.findings[0], "days"
+        result.findings[0], "days"
     )
 
 
@@ -68,14 +68,14 @@ def test_an_offset_that_leaps_is_found() -> None:
 def test_a_load_is_no_gain(robot: str) -> None:
     """0.8 kg on the last link weigh on several joints; a gain of one joint is not reported."""
     plan = (0.0,) * 2 + (0.8,) * 4
-    found = fleet(Scene(planted=(Planted(2, "load", plan),)), 31, robot)
-    assert told(found) == [("r3", "load", "jump")]
-    [one] = found.findings
+    result = fleet(Scene(planted=(Planted(2, "load", plan),)), 31, robot)
+    assert told(result) == [("r3", "load", "jump")]
+    [one] = result.findings
     assert one.change == pytest.approx(0.8, rel=0.2) and one.quantity.joint is None
     text = describe_finding(one, "periods")
     assert "machine r3: load on the last link leaps up by 0." in text
     assert "at day3 and stays, from" in text
-    assert not any("too few to know how values scatter" in note for note in found.notes)
+    assert not any("too few to know how values scatter" in note for note in result.notes)
 
 
 @slow_rotating("fleets that drift")
@@ -86,25 +86,25 @@ def test_a_gain_is_no_load_and_both_may_be_in_one_fleet() -> None:
         Planted(2, "load", (0.0,) * 2 + (2.0,) * 4),
     )
     scene = Scene(machines=5, periods=6, daily=0.02, duration=15.0, planted=plans)
-    found = fleet(scene, 5, "ur10e")
-    assert set(told(found)) == {("r3", "load", "jump"), ("r5", "gain 2", "jump")}
+    result = fleet(scene, 5, "ur10e")
+    assert set(told(result)) == {("r3", "load", "jump"), ("r5", "gain 2", "jump")}
 
 
 def test_friction_in_units_of_a_drifting_gain_does_not_drift() -> None:
     """A gain that falls by 40 % takes the logged friction with it: one cause, one finding."""
     plan = (0.0,) * 3 + (-0.4,) * 3
-    found = fleet(Scene(machines=2, planted=(Planted(0, "gain2", plan),)), 12)
-    assert told(found) == [("r1", "gain 2", "jump")]
+    result = fleet(Scene(machines=2, planted=(Planted(0, "gain2", plan),)), 12)
+    assert told(result) == [("r1", "gain 2", "jump")]
 
 
 def test_an_odd_machine_is_found() -> None:
     """One of eight rubs three times as much, another pulls 10 % more; all days alike."""
     plans = (Planted(3, "Fv2", (2.0, 2.0)), Planted(5, "gain1", (0.1, 0.1)))
-    found = fleet(Scene(machines=8, periods=2, apart=0.05, planted=plans), 5)
-    assert set(told(found)) == {("r4", "Fv2", "odd machine"), ("r6", "gain 1", "odd machine")}
-    assert found.verdict == "odd machine"
+    result = fleet(Scene(machines=8, periods=2, apart=0.05, planted=plans), 5)
+    assert set(told(result)) == {("r4", "Fv2", "odd machine"), ("r6", "gain 1", "odd machine")}
+    assert result.verdict == "odd machine"
     assert any(
-        "above that of the other machines" in describe_finding(f, "days") for f in found.findings
+        "above that of the other machines" in describe_finding(f, "days") for f in result.findings
     )
 
 
@@ -147,33 +147,33 @@ def test_what_cannot_be_compared_is_refused() -> None:
     other = dataclasses.replace(first, log_name=LogName("r2", "day1", "r2/day1.csv"), content="x")
     gone = SkippedLog(LogName("r1", "b", "r1/b.csv"), "r1/b.csv: there is no such file; check it")
     twice = [dataclasses.replace(log, content="x") for log in (first, second)]
-    for logs, told in (
+    for logs, text in (
         ([first, other], "got one log each of r1, r2; expected two periods of a machine"),
         ([gone], "none of 1 logs can be used; the first: r1/b.csv: there is no such file"),
         ([first, gone], "left out: 1, the first: r1/b.csv: there is no such file"),
         (twice, "r1/day2.csv: got rows of r1/day1.csv again; expected each"),
     ):
-        with pytest.raises(DataError, match=told):
+        with pytest.raises(DataError, match=text):
             analyse_fleet(compiled().spec, logs)
 
 
 def test_a_log_that_is_left_out_and_a_short_fleet_are_told() -> None:
-    given = summaries(Scene(machines=2, periods=3), 1)
-    late = dataclasses.replace(given[0], log_name=LogName("r9", "day1", "r9/day1.csv"))
+    inputs = summaries(Scene(machines=2, periods=3), 1)
+    late = dataclasses.replace(inputs[0], log_name=LogName("r9", "day1", "r9/day1.csv"))
     left = SkippedLog(LogName("r1", "day9", "r1/day9.csv"), "r1/day9.csv: damaged")
-    found = analyse_fleet(compiled().spec, [*given, late, left])
-    lines = "\n".join(format_fleet(found))
+    fleet = analyse_fleet(compiled().spec, [*inputs, late, left])
+    lines = "\n".join(format_fleet(fleet))
     assert (
-        found.skipped_logs == (("r1/day9.csv", "r1/day9.csv: damaged"),)
+        fleet.skipped_logs == (("r1/day9.csv", "r1/day9.csv: damaged"),)
         and "left out: r1/day9" in lines
     )
     assert "r9: one period, so a drift of its own cannot be seen" in lines
     assert "3 machines: an outlier among fewer than 5 is not reported" in lines
-    assert found.verdict == "nothing drifts" and found.logs == 7
-    assert found.to_json()["skipped_logs"] == [
+    assert fleet.verdict == "nothing drifts" and fleet.logs == 7
+    assert fleet.to_json()["skipped_logs"] == [
         {"log": "r1/day9.csv", "reason": "r1/day9.csv: damaged"}
     ]
     alike = "filtered alike: positions below 20 Hz, torques and columns below 5 Hz"
-    assert f"all logs are {alike}" in analyse_fleet(compiled().spec, given).notes
+    assert f"all logs are {alike}" in analyse_fleet(compiled().spec, inputs).notes
     few = analyse_fleet(compiled().spec, summaries(Scene(machines=1, periods=3), 2)).notes
     assert any("too few to know how values scatter" in note for note in few)

@@ -19,13 +19,13 @@ GIVEN = Processing(position_cutoff=20.0, parallel_cutoff=8.0)
 
 
 def reduced(pairs, robot="two-link"):
-    found: list[LogSummary | SkippedLog] = []
+    values: list[LogSummary | SkippedLog] = []
     for named, log in pairs:
         try:
-            found.append(summarise_log(compiled(robot), log, named, GIVEN))
+            values.append(summarise_log(compiled(robot), log, named, GIVEN))
         except DataError as error:
-            found.append(SkippedLog(named, str(error)))
-    return found
+            values.append(SkippedLog(named, str(error)))
+    return values
 
 
 def judged(pairs: list[tuple[LogName, Log]], robot: str = "two-link") -> Fleet:
@@ -45,22 +45,22 @@ def test_logs_with_exchanged_torques_are_left_out_with_the_reason(robot: str) ->
         (named, exchanged(log) if named.machine == "r2" or named.place == "r1/day3.csv" else log)
         for named, log in pairs
     ]
-    found = judged(wrong, robot)
-    assert found.findings == ()
-    assert [place for place, _ in found.skipped_logs] == [
+    result = judged(wrong, robot)
+    assert result.findings == ()
+    assert [place for place, _ in result.skipped_logs] == [
         *"r1/day3.csv r2/day1.csv r2/day2.csv r2/day3.csv".split()
     ]
-    text = "\n".join(format_fleet(found))
+    text = "\n".join(format_fleet(result))
     assert "on 2 machines in 5 logs; 4 logs left out" in text
-    told = f"left out: r2/day1.csv: does not fit {robot}: joints 1 and 2: their torques look exch"
-    assert told in text and "r2: none of its logs could be used: nothing is known" in text
+    value = f"left out: r2/day1.csv: does not fit {robot}: joints 1 and 2: their torques look exch"
+    assert value in text and "r2: none of its logs could be used: nothing is known" in text
 
 
 @pytest.mark.rotating("long tests of fleet")
 def test_short_logs_are_still_compared() -> None:
     """Too short for a fit of their own, by far: the fleet's inertia is that of all logs."""
-    found = judged(logs(Scene(machines=2, periods=3, duration=2.0), 5))
-    assert found.skipped_logs == () and found.logs == 6
+    result = judged(logs(Scene(machines=2, periods=3, duration=2.0), 5))
+    assert result.skipped_logs == () and result.logs == 6
 
 
 @with_cases(
@@ -71,9 +71,9 @@ def test_short_logs_are_still_compared() -> None:
 def test_great_drifts_are_no_wrong_logs(seed: int, plan: tuple[str, float]) -> None:
     name, size = plan
     scene = Scene(machines=2, periods=4, planted=(Planted(0, name, (0.0, 0.0, size, size)),))
-    found = judged(logs(scene, seed))
-    assert found.skipped_logs == ()
-    first = found.findings[0]
+    result = judged(logs(scene, seed))
+    assert result.skipped_logs == ()
+    first = result.findings[0]
     assert (first.machine, first.shape, first.begin) == ("r1", "jump", "day3")
 
 
@@ -100,8 +100,8 @@ def test_a_machine_that_hides_a_parameter_is_told() -> None:
     pairs, rng = logs(Scene(machines=3, periods=4, noise=0.02), 4), np.random.default_rng(4)
     plain = reduced(pairs)
     resting = [(named, still(log, compiled(), rng)) for named, log in pairs[4:8]]
-    found = analyse_fleet(compiled().spec, [*plain[:4], *reduced(resting), *plain[8:]])
-    [line] = [note for note in found.notes if note.startswith("machine ")]
+    fleet = analyse_fleet(compiled().spec, [*plain[:4], *reduced(resting), *plain[8:]])
+    [line] = [note for note in fleet.notes if note.startswith("machine ")]
     assert line.startswith("machine r2: its logs determine ") and "Fv2 (" in line
     notes = analyse_fleet(compiled().spec, plain).notes
     assert not [note for note in notes if note.startswith("machine ")]
@@ -110,8 +110,8 @@ def test_a_machine_that_hides_a_parameter_is_told() -> None:
 def still(log: Log, model: CompiledModel, rng: np.random.Generator) -> Log:
     """The same with joint 2 held still but for a tenth of a degree."""
     _, q, qd, qdd = motion(rng, 2, 12.0)
-    for own in (q, qd, qdd):
-        own[:, 1] *= 2e-3
+    for items in (q, qd, qdd):
+        items[:, 1] *= 2e-3
     exact = model.base_regressor(q, qd, qdd) @ parameters(4, model)
     noise = 0.1 * rng.normal(size=exact.shape)
     return dataclasses.replace(log, q=q + 1e-5 * rng.normal(size=q.shape), tau=exact + noise)
@@ -131,7 +131,7 @@ def test_a_coarse_encoder_is_no_drift_and_hides_none() -> None:
     for named, log in logs(scene, 90):
         seen = coarser(log, 1000) if named.machine == "r5" else log
         machines.setdefault(named.machine, {})[named.period] = seen
-    found = fleet(load("two-link"), machines)
-    told = {(one.machine, one.quantity.parameter, one.begin) for one in found.findings}
-    assert told == {("r2", "Fv2", "day2"), ("r5", "Fs2", "day2")}
-    assert any("each log is filtered as its noise asks: positions below" in n for n in found.notes)
+    result = fleet(load("two-link"), machines)
+    lines = {(one.machine, one.quantity.parameter, one.begin) for one in result.findings}
+    assert lines == {("r2", "Fv2", "day2"), ("r5", "Fs2", "day2")}
+    assert any("each log is filtered as its noise asks: positions below" in n for n in result.notes)

@@ -15,8 +15,8 @@ from tests.rotation import with_cases
 
 
 def named(*places: str, name: str | None = None) -> list[tuple[str, str]]:
-    found = name_logs([(place, "") for place in places], name)
-    return [(log.machine, log.period) for log in found]
+    result = name_logs([(place, "") for place in places], name)
+    return [(log.machine, log.period) for log in result]
 
 
 def test_the_folder_is_the_machine_and_the_file_the_period() -> None:
@@ -27,9 +27,9 @@ def test_the_folder_is_the_machine_and_the_file_the_period() -> None:
 
 
 def test_windows_of_one_file_are_periods() -> None:
-    found = name_logs([("r1/a.csv", "0:5"), ("r1/a.csv", "5:10")])
-    assert [log.period for log in found] == ["a@0:5", "a@5:10"]
-    assert [log.place for log in found] == ["r1/a.csv@0:5", "r1/a.csv@5:10"]
+    result = name_logs([("r1/a.csv", "0:5"), ("r1/a.csv", "5:10")])
+    assert [log.period for log in result] == ["a@0:5", "a@5:10"]
+    assert [log.place for log in result] == ["r1/a.csv@0:5", "r1/a.csv@5:10"]
 
 
 def test_patterns() -> None:
@@ -44,21 +44,21 @@ def test_patterns() -> None:
 
 
 @with_cases(
-    "pattern, told",
+    "pattern, text",
     ("{robot}.csv", "--name {robot}.csv: got {robot}, which says nothing; expected {machine}"),
     ("{machine}{machine}", "got {machine}, twice; expected {machine} and {period}, each once"),
     ("{machine}.csv", "--name {machine}.csv: no {period} stands in it; expected one, as in"),
     ("run.csv", "--name run.csv: neither {machine} nor {period} stands in it; expected"),
     ("{machine}_{period}.csv", "r1/a.csv: does not fit --name {machine}_{period}.csv"),
 )
-def test_bad_patterns(pattern: str, told: str) -> None:
-    with pytest.raises(DataError, match=re.escape(told)):
+def test_bad_patterns(pattern: str, text: str) -> None:
+    with pytest.raises(DataError, match=re.escape(text)):
         named("r1/a.csv", name=pattern)
 
 
 def test_two_logs_of_one_machine_and_period() -> None:
-    told = "x/r1/a.csv: machine r1, period a, which r1/a.csv is too; expected one log each; rename"
-    with pytest.raises(DataError, match=re.escape(told)):
+    text = "x/r1/a.csv: machine r1, period a, which r1/a.csv is too; expected one log each; rename"
+    with pytest.raises(DataError, match=re.escape(text)):
         named("r1/a.csv", "x/r1/a.csv")
 
 
@@ -70,13 +70,13 @@ def test_lists(tmp_path: Path) -> None:
     rows = "machine, period, log\nr1, b, x/1.csv\nr1, a, 2.csv\n"
     for name, text in (("logs.csv", rows), ("logs.toml", "".join(tables))):
         (tmp_path / name).write_text(text)
-        found = read_log_list(tmp_path / name)
-        assert [(log.machine, log.period) for log in found] == [("r1", "a"), ("r1", "b")]
-        assert [log.place for log in found] == [str(tmp_path / p) for p in ("2.csv", "x/1.csv")]
+        result = read_log_list(tmp_path / name)
+        assert [(log.machine, log.period) for log in result] == [("r1", "a"), ("r1", "b")]
+        assert [log.place for log in result] == [str(tmp_path / p) for p in ("2.csv", "x/1.csv")]
 
 
 @with_cases(
-    "name, text, told",
+    "name, text, message",
     ("l.csv", "machine,log\nr1,a.csv\n", "l.csv: no column period in its first line"),
     ("l.csv", "machine,period,log\nr1,,a.csv\n", "l.csv, line 2: no period; expected machine"),
     ("l.csv", "machine,period,log\n", "l.csv: no logs in it; expected rows of machine"),
@@ -87,10 +87,10 @@ def test_lists(tmp_path: Path) -> None:
     ("l.csv", b"\xff\xfe\x00", "l.csv: no text; expected a list of logs"),
     ("l.csv", None, "l.csv: cannot be read (No such file or directory)"),
 )
-def test_bad_lists(tmp_path: Path, name: str, text: str | bytes | None, told: str) -> None:
+def test_bad_lists(tmp_path: Path, name: str, text: str | bytes | None, message: str) -> None:
     if text is not None:
         (tmp_path / name).write_bytes(text if isinstance(text, bytes) else text.encode())
-    with pytest.raises(DataError, match=re.escape(told)):
+    with pytest.raises(DataError, match=re.escape(message)):
         read_log_list(tmp_path / name)
 
 
@@ -99,7 +99,7 @@ def test_natural_order() -> None:
 
 
 def test_dates_in_names() -> None:
-    for period, told in {
+    for period, text in {
         "2026-03-01": "2026-03-01 00:00",
         "run_20260301_0930": "2026-03-01 09:30",
         "2026.03.01 at x": "2026-03-01 00:00",
@@ -107,8 +107,8 @@ def test_dates_in_names() -> None:
         "day3": None,
         "120260301": None,
     }.items():
-        found = parse_date(period)
-        assert (None if found is None else f"{found:%Y-%m-%d %H:%M}") == told
+        result = parse_date(period)
+        assert (None if result is None else f"{result:%Y-%m-%d %H:%M}") == text
 
 
 def test_periods_are_in_time() -> None:

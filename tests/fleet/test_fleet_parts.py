@@ -26,15 +26,15 @@ ROSNER = """
 
 def test_critical_values_are_those_of_the_handbook() -> None:
     printed = [3.159, 3.151, 3.144, 3.136, 3.128, 3.120, 3.112, 3.103, 3.094, 3.085]
-    found = [drift.compute_critical_deviate(54, i, 0.05) for i in range(1, 11)]
-    assert np.allclose(found, printed, atol=1.1e-3)
+    values = [drift.compute_critical_deviate(54, i, 0.05) for i in range(1, 11)]
+    assert np.allclose(values, printed, atol=1.1e-3)
 
 
 def test_the_largest_of_rosners_data_are_odd() -> None:
     """His three at 5 %, reported here where each step gets all of the 5 %: three steps, 15 %."""
     data = np.array(list(map(float, ROSNER.split())))
-    found = find_outlying_machines(data, np.full(54, 1e-3), 0.15)
-    assert sorted(data[odd.machine] for odd in found) == [5.34, 5.42, 6.01]
+    matches = find_outlying_machines(data, np.full(54, 1e-3), 0.15)
+    assert sorted(data[odd.machine] for odd in matches) == [5.34, 5.42, 6.01]
 
 
 def test_alike_machines_are_rarely_odd_and_a_far_one_is() -> None:
@@ -73,10 +73,10 @@ def test_series_that_stay_are_rarely_told(extra: tuple[float, ...]) -> None:
         groups = [
             [series(rng, extra[i % len(extra)], np.zeros(5)) for _ in range(3)] for i in range(12)
         ]
-        found = estimate_scatters(groups)
+        fit = estimate_scatters(groups)
         chances = [
             move.chance
-            for group, scatter in zip(groups, found, strict=True)
+            for group, scatter in zip(groups, fit, strict=True)
             for each in group
             if (move := fit_drift(each, scatter)) is not None
         ]
@@ -93,14 +93,14 @@ def test_what_a_series_does_is_told() -> None:
         "one period": np.where(np.arange(8) == 4, -25.0, 0.0),
     }
     for shape, plan in plans.items():
-        own = series(rng, 0.0, plan)
-        [scatter] = estimate_scatters([[own, *still]])
-        move = fit_drift(own, scatter)
+        local = series(rng, 0.0, plan)
+        [scatter] = estimate_scatters([[local, *still]])
+        move = fit_drift(local, scatter)
         assert move is not None and move.shape == shape and move.chance < 1e-6
         assert abs(move.change) == pytest.approx(np.abs(plan).max(), abs=4.0 * move.sigma)
         assert move.begin == {"trend": 0, "jump": 3, "one period": 4}[shape]
-        told = drift.compute_smallest_detectable(own, scatter, 1e-3)
-        assert 3.0 < told < 30.0
+        text = drift.compute_smallest_detectable(local, scatter, 1e-3)
+        assert 3.0 < text < 30.0
     assert fit_drift(PeriodSeries(np.zeros(1), np.zeros(1), np.ones(1)), scatter) is None
 
 
@@ -114,9 +114,9 @@ def test_common_parameters_are_those_of_one_large_least_squares() -> None:
     for k, (_, log) in enumerate(logs(scene, 4)):
         seen = observe(model, [log], reduced[0].processing or PROCESSING)
         weight = 1.0 / solve_least_squares(reduced[k].data).sigma[seen.row_joint]
-        own = np.zeros((len(seen.y), len(reduced) * len(drifting)))
-        own[:, k * len(drifting) : (k + 1) * len(drifting)] = seen.W[:, drifting]
-        blocks.append(np.column_stack([own, seen.W[:, common]]) * weight[:, None])
+        actual = np.zeros((len(seen.y), len(reduced) * len(drifting)))
+        actual[:, k * len(drifting) : (k + 1) * len(drifting)] = seen.W[:, drifting]
+        blocks.append(np.column_stack([actual, seen.W[:, common]]) * weight[:, None])
         sides.append(seen.y * weight)
     whole = np.linalg.lstsq(np.vstack(blocks), np.concatenate(sides), rcond=None)[0]
     theta = whole[len(reduced) * len(drifting) :]

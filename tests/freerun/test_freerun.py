@@ -83,8 +83,8 @@ def with_values(model: IdentifiedModel, beta: np.ndarray) -> IdentifiedModel:
 def true_model(name: str | Robot, duration: float, **settings):
     """Model with the true values, compiled robot, log of the simulator with ideal sensors."""
     robot = name if isinstance(name, Robot) else load(name)
-    own = {"encoder_counts": 0, "torque_noise": 0.0, "rate": 500.0, "seed": 1} | settings
-    made = simulate(robot, SimulationSettings(duration=duration, **own))
+    actual = {"encoder_counts": 0, "torque_noise": 0.0, "rate": 500.0, "seed": 1} | settings
+    made = simulate(robot, SimulationSettings(duration=duration, **actual))
     log = Log("run1.parquet", made.joints, made.time, made.q, made.tau, commanded=made.qc)
     model, compiled = fitted(robot, [log])
     chi = [made.truth.parameters[p.name] for p in compiled.spec.standard]
@@ -143,8 +143,8 @@ def five_bar():
 def test_loops_are_run_too(five_bar) -> None:
     model, compiled, log = five_bar
     bare = dataclasses.replace(log, commanded=None)
-    found = simulate_free_run(model, [bare], compiled, FreeRunSettings(window=0.5))
-    assert all(joint.fit > 99.0 for joint in found.joints)
+    run = simulate_free_run(model, [bare], compiled, FreeRunSettings(window=0.5))
+    assert all(joint.fit > 99.0 for joint in run.joints)
     assert FittedPlant(compiled, model.beta).shafts == 4
 
 
@@ -164,16 +164,16 @@ def test_a_loop_that_cannot_close_ends_a_run(five_bar) -> None:
 def test_the_rate_of_a_pendulum(stands: bool) -> None:
     """Upright, x'' = (m l g x - b x') / I: errors grow by the positive root; hanging they fade."""
     model, log = pendulum(stands)
-    found = simulate_free_run(model, [log], compile(model)).stability
+    result = simulate_free_run(model, [log], compile(model)).stability
     pull = MOMENT * G / INERTIA * (1.0 if stands else -1.0)
     roots = np.roots([1.0, RUBS / INERTIA, -pull])
-    assert found.rate == pytest.approx(roots.real.max(), rel=0.01)
-    assert found.unstable == stands
+    assert result.rate == pytest.approx(roots.real.max(), rel=0.01)
+    assert result.unstable == stands
     if stands:
-        assert found.doubling_time == pytest.approx(np.log(2.0) / roots.real.max(), rel=0.01)
-        assert found.describe().startswith("unstable by nature: along this motion any error doubl")
+        assert result.doubling_time == pytest.approx(np.log(2.0) / roots.real.max(), rel=0.01)
+        assert result.describe().startswith("unstable by nature: along this motion any error doubl")
     else:
-        assert found.doubling_time is None and found.describe().startswith("stable by nature")
+        assert result.doubling_time is None and result.describe().startswith("stable by nature")
 
 
 @pytest.mark.rotating("free runs of simulated machines")
@@ -239,21 +239,21 @@ def slide():
 def test_a_free_axis_is_neither_stable_nor_unstable_and_what_is_said_of_it(slide) -> None:
     """A mass that only rubs: no eigenvalue but 0."""
     model, compiled, log = slide
-    found = simulate_free_run(model, [log], compiled)
-    assert found.stability.rate == pytest.approx(0.0, abs=1e-6) and not found.stability.is_unstable
-    assert "integrated twice" in found.stability.describe()
-    text, raw = found.summary(), found.to_json()
-    assert len(repr(found)) < 150 and "slide" in repr(found)
+    run = simulate_free_run(model, [log], compiled)
+    assert run.stability.rate == pytest.approx(0.0, abs=1e-6) and not run.stability.is_unstable
+    assert "integrated twice" in run.stability.describe()
+    text, raw = run.summary(), run.to_json()
+    assert len(repr(run)) < 150 and "slide" in repr(run)
     assert "free run under the logged torques on run1.parquet: 2 windows of 1 s" in text
     assert set(raw["joints"]) == {"1"} and raw["joints"]["1"]["fit"] > 99.5
     row = next(line.split() for line in text.splitlines() if line.startswith("1 "))
     assert row[1:3] == [f"{raw['joints']['1']['fit']:.2f}", "%"]
     assert raw["stability"]["is_unstable"] is False
-    (picture,) = draw_free_run_pictures(found)
+    (picture,) = draw_free_run_pictures(run)
     measured, simulated = picture.panels[0][0].series
     assert picture.name == "joint_1_free_run"
     assert np.nanmax(np.abs(measured.y - simulated.y)) < 0.05 * np.nanmax(np.abs(measured.y))
-    assert found.controlled is not None and found.controlled.fit["1"] > 97.0
+    assert run.controlled is not None and run.controlled.fit["1"] > 97.0
     assert "under a controller (nearest to the log" in text
 
 
@@ -319,9 +319,9 @@ def test_given_gains_are_used(slide) -> None:
     model, compiled, log = slide
     settings = FreeRunSettings(gains=(8.0, 0.5, 0.0, 0.0))
     log = cut_rows(log, slice(0, 250))
-    found = simulate_free_run(model, [log], compiled, settings)
-    assert found.controlled is not None and found.controlled.has_given_gains
-    assert found.to_json()["controller"]["speed"] == pytest.approx(8.0)
+    run = simulate_free_run(model, [log], compiled, settings)
+    assert run.controlled is not None and run.controlled.has_given_gains
+    assert run.to_json()["controller"]["speed"] == pytest.approx(8.0)
     bare = dataclasses.replace(log, commanded=None)
     with pytest.raises(DataError, match=r"--controller: run1.parquet: no complete columns qc1"):
         simulate_free_run(model, [bare], compiled, settings)
@@ -333,8 +333,8 @@ def test_a_joint_that_stands_still_is_not_judged(arm) -> None:
     q, tau = log.q.copy(), log.tau.copy()
     q[:, 1] = 0.3
     still = dataclasses.replace(log, q=q, tau=tau, commanded=None)
-    found = simulate_free_run(model, [still], compiled)
-    assert found.joints[1].fit is None and "still" in found.summary()
+    run = simulate_free_run(model, [still], compiled)
+    assert run.joints[1].fit is None and "still" in run.summary()
 
 
 @pytest.mark.parametrize("asked", [{"window": 0.0}, {"window": np.nan}, {"bound": -0.1}])
@@ -359,8 +359,8 @@ def test_values_without_inertia_and_gains_that_lose_the_robot_are_refused(arm) -
 def test_an_error_that_grows_by_nature_is_not_blamed_on_the_model() -> None:
     """True values, an upright pendulum: the run is lost, and the reason is reported."""
     model, log = pendulum(True)
-    found = simulate_free_run(model, [log], compile(model), FreeRunSettings(window=2.0))
-    assert found.joints[0].whole < 90.0 and found.stability.is_unstable
+    run = simulate_free_run(model, [log], compile(model), FreeRunSettings(window=2.0))
+    assert run.joints[0].whole < 90.0 and run.stability.is_unstable
     assert any(
-        "an error grows tenfold and more by nature; `--window 0.3`" in d for d in found.warnings
+        "an error grows tenfold and more by nature; `--window 0.3`" in d for d in run.warnings
     )

@@ -44,9 +44,9 @@ def parser() -> argparse.ArgumentParser:
         help=f"the first N (default {SEEDS}) of the seeds {ACCEPTANCE[0]} to {ACCEPTANCE[-1]}",
     )
     add("--first", type=int, default=0, metavar="SEED", help="leave out seeds below this one")
-    for name, told in MORE.items():
+    for name, text in MORE.items():
         usual = {"nargs": "?", "const": PAIRS} if name == "two" else {}
-        add(f"--{name}", type=int, default=0, metavar="N", help=f"and {told}", **usual)
+        add(f"--{name}", type=int, default=0, metavar="N", help=f"and {text}", **usual)
     add("--out", type=Path, help="folder that keeps cases and results: run again, and it goes on")
     add("--table", type=Path, help="page to write, in Markdown; default: printed")
     add("--jobs", type=int, default=1, help="processes; default: 1")

@@ -108,22 +108,22 @@ class Plant:
     def inverse_dynamics(self, q, v, a):
         """(samples, n) each: torque of the links, diagonal of their inertia, gravity's torque."""
         ffi, loaded = library()
-        given = [_pointer(ffi, np.ascontiguousarray(x, float)) for x in (q, v, a)]
-        found = (np.zeros(q.shape), np.zeros(q.shape), np.zeros(q.shape))
-        loaded.inverse_dynamics(self._struct, len(q), *given, *(_pointer(ffi, x) for x in found))
-        return found
+        inputs = [_pointer(ffi, np.ascontiguousarray(x, float)) for x in (q, v, a)]
+        items = (np.zeros(q.shape), np.zeros(q.shape), np.zeros(q.shape))
+        loaded.inverse_dynamics(self._struct, len(q), *inputs, *(_pointer(ffi, x) for x in items))
+        return items
 
     def run(self, wanted: np.ndarray, temperature: np.ndarray, seed: int) -> Run | None:
         """The motion along `wanted` (ticks, n), 1 kHz; None if the arm ran away."""
         ffi, loaded = library()
         ticks, n = wanted.shape
-        given = [np.ascontiguousarray(x, float) for x in (wanted, rate(wanted), temperature)]
+        known = [np.ascontiguousarray(x, float) for x in (wanted, rate(wanted), temperature)]
         run = Run(*(np.zeros((count, n)) for count in (ticks, STEPS * ticks, ticks, ticks)))
         left = (run.encoder, run.torque, run.temperature, run.link)
         lost = loaded.simulate(
             self._struct,
             ticks,
-            *(_pointer(ffi, x) for x in given),
+            *(_pointer(ffi, x) for x in known),
             seed,
             *(_pointer(ffi, x) for x in left),
         )

@@ -176,12 +176,12 @@ def _not_of(true: Sequence[Mapping[str, Any]], keys: Sequence[Key]) -> list[Key]
 def _blamed(sensor, findings):
     """Names that are true on account of the sensor: its joint's, or one that is tied with that."""
     names, where = SENSORS[sensor["kind"]].names, (sensor.get("joint"), None)
-    found = []
+    values = []
     for finding in findings:
         keys = [_key(finding), *map(_key, finding["ties"])]
         if any(effect in names and joint in where for effect, joint in keys):
-            found.append({"effect": finding["effect"], "joint": finding["joint"], "values": {}})
-    return found
+            values.append({"effect": finding["effect"], "joint": finding["joint"], "values": {}})
+    return values
 
 
 def _told(sensor, said, blamed, named):

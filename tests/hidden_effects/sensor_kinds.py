@@ -106,8 +106,8 @@ class Sensor:
         q = self.blurred(np.stack([columns[name] for name in names], 1), rng)
         columns = columns | {name: q[:, j] for j, name in enumerate(names)}
         if self.late:
-            own, rows = columns[f"q{joint + 1}"], round(self.late / TICK)
-            columns[f"q{joint + 1}"] = np.concatenate([np.full(rows, own[0]), own[:-rows]])
+            items, rows = columns[f"q{joint + 1}"], round(self.late / TICK)
+            columns[f"q{joint + 1}"] = np.concatenate([np.full(rows, items[0]), items[:-rows]])
         if self.gain != 1.0:
             columns[f"tau{joint + 1}"] = columns[f"tau{joint + 1}"] * self.gain
         if self.faster == 1.0:

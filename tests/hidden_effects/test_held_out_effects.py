@@ -127,9 +127,9 @@ def swinging(x):
     speed, force = rate(held), np.zeros_like(held)
     states = ([[0, 1], [-(omega**2), -damping]], [[0, 0, 0], [omega**2, damping, 1]])
     for i, g in enumerate(plant.gravity):
-        given = np.stack([held[:, i], speed[:, i], np.full(len(held), g)], 1)
+        values = np.stack([held[:, i], speed[:, i], np.full(len(held), g)], 1)
         start = [held[0, i] + g / omega**2, 0]
-        _, _, path = lsim((*states, np.eye(2), np.zeros((2, 3))), given, x.time, start)
+        _, _, path = lsim((*states, np.eye(2), np.zeros((2, 3))), values, x.time, start)
         force[:, i] = omega**2 * (path[:, 0] - held[:, i]) + damping * (path[:, 1] - speed[:, i])
     lever = slopes(lambda q: places(plant, q, last, plant.slosh_point), x.q)
     return -mass * (lever * force[:, None]).sum(2)

@@ -24,16 +24,16 @@ CASES = [
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
 def test_what_is_hidden_is_found(case, tmp_path, plant_compiler):
     assert case.seed in DEVELOPMENT
-    told = []
-    (score,) = run([case], tmp_path, tell=told.append)
+    lines = []
+    (score,) = run([case], tmp_path, tell=lines.append)
     assert not score.error
     assert score.exact and score.first == bool(case.effects), score
     assert score.stated == bool(case.effects), score
     truth = json.loads((tmp_path / "cases" / case.name / "truth.json").read_text())
     assert [hidden["effect"] for hidden in truth["hidden"]] == list(case.effects)
     # Done once, it is not done again.
-    assert run([case], tmp_path, tell=told.append) == [score]
-    assert told == [score]
+    assert run([case], tmp_path, tell=lines.append) == [score]
+    assert lines == [score]
 
 
 @SLOW

@@ -93,10 +93,10 @@ FAULTS = {
 
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_wrong_log_is_told(name):
-    kind, answer, told, wrong = FAULTS[name]
+    kind, answer, text, wrong = FAULTS[name]
     score = scored(name, truth(sensor=kind), answer)
-    assert (score.told, score.spurious) == (told, wrong)
-    assert score.right == (told and not wrong)
+    assert (score.told, score.spurious) == (text, wrong)
+    assert score.right == (text and not wrong)
 
 
 def test_the_page_counts():

@@ -101,18 +101,18 @@ def shown(left: Left, plant: Plant, read: np.ndarray, noise: str, scales: Scales
         a = rate(v)
         asked = plant.inverse_dynamics(q, v, a)[0] + plant.rotor_inertia * a + plant.viscous * v
         moved.append(sosfiltfilt(last, asked, axis=0)[KEPT])
-    own, blur = left.torque * left.used, (moved[0] - moved[1]) * left.used
+    items, blur = left.torque * left.used, (moved[0] - moved[1]) * left.used
     drive, best = NOISE[noise] * scales.motors, np.zeros(plant.joints)
     for band in BANDS:
         narrow = butter(4, band, fs=1000 / KEPT.step, output="sos")
-        size, noisy = (_rms(sosfiltfilt(narrow, x, axis=0), left.used) for x in (own, blur))
+        size, noisy = (_rms(sosfiltfilt(narrow, x, axis=0), left.used) for x in (items, blur))
         best = np.maximum(best, size / np.sqrt(drive**2 + noisy**2))
     return float(best.max() * NOISE[noise] / NOISE["med"])
 
 
 def _rms(values: np.ndarray, used: np.ndarray) -> np.ndarray:
     rows = zip(values.T, used.T, strict=True)
-    return np.array([np.sqrt((own[use] ** 2).mean()) for own, use in rows])
+    return np.array([np.sqrt((item[use] ** 2).mean()) for item, use in rows])
 
 
 def regression(plant, run, delay, effects):

@@ -23,9 +23,9 @@ from tests.improve.conftest import Mended
 @pytest.mark.rotating("long tests of improve")
 def test_what_a_diagnosis_names_is_added(case: Case) -> None:
     model, train, holdout = case.hidden(two)
-    found = case.found(two)
+    result = case.found(two)
     logs = LogSplit([train], [holdout])
-    better, _ = add_findings(model, case.compiled, found.effects, logs)
+    better, _ = add_findings(model, case.compiled, result.effects, logs)
     errors = [step.error for step in better.history]
     assert errors == sorted(errors, reverse=True) and errors[-1] < 0.5 * errors[0]
     values = {p.name: p.value for p in better.fit.parameters}
@@ -87,11 +87,11 @@ def test_rows_are_those_that_the_new_robot_would_make_itself(case: Case, sprung:
     before = build_rows(case.compiled, logs, model.processing)
     compiled = load_compiled(better.spec, better.sources)
     alike, fresh = before.rebuild_for(compiled), build_rows(compiled, logs, model.processing)
-    for ours, own in zip(alike.observations, fresh.observations, strict=True):
-        np.testing.assert_array_equal(ours.W, own.W)
-        np.testing.assert_array_equal(ours.y, own.y)
-        assert (ours.names, ours.units, ours.joints) == (own.names, own.units, own.joints)
-        assert ours.report == own.report
+    for ours, item in zip(alike.observations, fresh.observations, strict=True):
+        np.testing.assert_array_equal(ours.W, item.W)
+        np.testing.assert_array_equal(ours.y, item.y)
+        assert (ours.names, ours.units, ours.joints) == (item.names, item.units, item.joints)
+        assert ours.report == item.report
 
 
 def test_the_inverse_dynamics_give_the_torque_of_the_columns(case: Case) -> None:

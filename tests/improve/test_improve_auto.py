@@ -25,11 +25,11 @@ def test_what_is_missing_is_added_and_lowers_the_error(sprung: Mended) -> None:
 def test_what_holds_on_the_fitted_logs_only_is_left_out(case: Case) -> None:
     """The held-out run is of a machine without the spring: with it, the error rises there."""
     model, train, _ = case.hidden(spring)
-    found = diagnose(model, case.compiled, [train])
-    assert ("spring", "3") in {(f.effect, f.joint) for f in found.effects}
+    result = diagnose(model, case.compiled, [train])
+    assert ("spring", "3") in {(f.effect, f.joint) for f in result.effects}
     before = case.fitted(case.train)  # it describes the held-out run, as no spring is in it
     same, left_out = add_findings(
-        before, case.compiled, found.effects, LogSplit([train], [case.holdout])
+        before, case.compiled, result.effects, LogSplit([train], [case.holdout])
     )
     assert same is before
     assert any("left out: spring, joint 3 (the error rises: joint" in line for line in left_out)
@@ -48,7 +48,9 @@ def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(case, sprun
     first = dataclasses.replace(sprung.diagnosis.effects[0], warning="it may be another")
     same, (line,) = add_findings(sprung.model, case.compiled, [first], sprung.logs)
     assert same is sprung.model and line.endswith("(weak evidence: it may be another)")
-    monkeypatch.setattr(module, "explain_weak_evidence", lambda *found: "the error falls by little")
+    monkeypatch.setattr(
+        module, "explain_weak_evidence", lambda *result: "the error falls by little"
+    )
     step = add_effect(sprung.model, case.compiled, "spring", "3", sprung.logs)
     assert (
         "the evidence that it is missing is weak: the error falls by little"

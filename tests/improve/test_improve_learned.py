@@ -44,8 +44,8 @@ def test_the_error_falls_and_physics_stays(case: Case, tmp_path: Path) -> None:
     assert last.shifts_in_sigmas and max(last.shifts_in_sigmas.values()) < 2.0
     physics, law = better.error_reduction_shares or (0.0, 0.0)
     assert physics == 0.0 and law == pytest.approx(first.error - last.error)
-    (own,) = parse_robot_text(better.robot_text, "better").own_effects
-    assert own.is_learned and own.columns[0].equation.law is not None
+    (item,) = parse_robot_text(better.robot_text, "better").own_effects
+    assert item.is_learned and item.columns[0].equation.law is not None
     # The C has the law, and its even rest is viscous and Coulomb friction's.
     place, v = [p.name for p in better.fit.parameters].index("Lw2"), np.linspace(-1.0, 1.0, 41)
     qd = np.outer(v, [0.3, 1.0, -0.2])
@@ -74,12 +74,12 @@ def test_a_law_as_asked(case: Case) -> None:
         (LawRequest(("q", "v")), "law(q, v)"),
         (LawRequest(("v",), odd=True, rising=1), "sign(v)*law(abs(v))"),
     ):
-        found = learn_law(state, 1, asked)
-        assert found is not None and found.coordinates.equation == equation
-    x = np.linspace(found.law.low[0], found.law.high[0], 500)
-    assert np.all(np.diff(found.law(x)) >= -1e-5)  # rounded to six digits
-    assert found.law(1e6) == found.law(found.law.high[0])
-    assert abs(found.law(x[-1], along=0)) < 1e-9  # it comes to rest at its end
+        result = learn_law(state, 1, asked)
+        assert result is not None and result.coordinates.equation == equation
+    x = np.linspace(result.law.low[0], result.law.high[0], 500)
+    assert np.all(np.diff(result.law(x)) >= -1e-5)  # rounded to six digits
+    assert result.law(1e6) == result.law(result.law.high[0])
+    assert abs(result.law(x[-1], along=0)) < 1e-9  # it comes to rest at its end
 
 
 @pytest.mark.rotating("effects are added to simulated runs")

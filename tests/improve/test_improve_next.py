@@ -21,8 +21,8 @@ from tests.diagnose.conftest import Case, spring
 )
 def test_what_is_suggested_can_be_added(case: Case, effect: Effect) -> None:
     """After a diagnosis that names one effect, on joint 3 if it is of a joint."""
-    model, found = case.hidden(spring)[0], case.found(spring)
-    (first,) = found.effects
+    model, result = case.hidden(spring)[0], case.found(spring)
+    (first,) = result.effects
     whole = (
         effect.acts in (EffectTarget.TORQUE, EffectTarget.GRAVITY, EffectTarget.WINDOW)
         or effect.last_link
@@ -31,7 +31,7 @@ def test_what_is_suggested_can_be_added(case: Case, effect: Effect) -> None:
     pick = dataclasses.replace(first.pick, candidate=candidate)
     one = dataclasses.replace(first, effect=effect.id, joint=candidate.joint, pick=pick)
     commands = views.suggest_after_diagnosis(
-        "m", ["a"], ["b"], dataclasses.replace(found, effects=(one,))
+        "m", ["a"], ["b"], dataclasses.replace(result, effects=(one,))
     )
     for _, command, _, *rest in map(shlex.split, commands):
         if command == "add":
@@ -72,9 +72,9 @@ def test_what_is_printed_runs(arm, tmp_path, monkeypatch, run):
         following = [shlex.split(line)[2:] for line in out.splitlines() if line[:6] == "next: "]
         assert following
         out = ""
-        for own in following:
-            status, more, err = run(*own)
-            assert (status, err) == (0, ""), own
+        for item in following:
+            status, more, err = run(*item)
+            assert (status, err) == (0, ""), item
             out += more
 
 

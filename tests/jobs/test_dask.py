@@ -137,17 +137,17 @@ def test_a_cluster_gives_what_this_process_gives(in_threads: str) -> None:
 @pytest.mark.rotating("long tests of jobs")
 def test_a_fit_is_the_local_one(address: str, place: Path) -> None:
     """To 1e-10 of the values, all logs at once, chunk after chunk; a worker is lost on the way."""
-    model, given = compiled(), sources(place)
-    here = identify_long(stream_logs(model, given, PROCESSING, rows=ROWS))
+    model, inputs = compiled(), sources(place)
+    here = identify_long(stream_logs(model, inputs, PROCESSING, rows=ROWS))
     with open_workers(address) as workers:
-        there, struck = fitted_without_one(workers, given)
+        there, struck = fitted_without_one(workers, inputs)
     np.testing.assert_allclose(there.beta, here.beta, rtol=1e-10)
     np.testing.assert_allclose(there.covariance, here.covariance, rtol=1e-9, atol=1e-18)
     assert struck and there.rows == here.rows and there.reading == here.reading
     assert there.processing == here.processing and there.sentences == here.sentences
 
 
-def fitted_without_one(workers: cluster.Cluster, given: list) -> tuple[Any, list[int]]:
+def fitted_without_one(workers: cluster.Cluster, inputs: list) -> tuple[Any, list[int]]:
     """The fit, and the process that ended while the first log was on its way."""
     plain, struck = make_worker_reducer(workers, emitted()), list[int]()
 
@@ -158,7 +158,7 @@ def fitted_without_one(workers: cluster.Cluster, given: list) -> tuple[Any, list
             os.kill(struck[0], signal.SIGKILL)
         return begun
 
-    long = stream_logs(compiled(), given, PROCESSING, rows=ROWS, reducer=reducer)
+    long = stream_logs(compiled(), inputs, PROCESSING, rows=ROWS, reducer=reducer)
     return identify_long(long), struck
 
 
@@ -182,12 +182,12 @@ def test_commands_on_a_cluster(address: str, place: Path, tmp_path: Path, capsys
     here = capsys.readouterr().out
     assert main([*words, "--dask", address]) == 0
     assert capsys.readouterr().out == here
-    given = [str(path) for path in sorted((place / "r1").iterdir())]
-    fit = ["fit", "two-link", *given, "--out", str(tmp_path / "m.json"), "--dask", address]
+    inputs = [str(path) for path in sorted((place / "r1").iterdir())]
+    fit = ["fit", "two-link", *inputs, "--out", str(tmp_path / "m.json"), "--dask", address]
     assert main(fit) == 0
     assert capsys.readouterr().err == ""
     text = tmp_path / "same.csv"
-    pyarrow.csv.write_csv(pq.read_table(given[0]), text)
+    pyarrow.csv.write_csv(pq.read_table(inputs[0]), text)
     assert main(["fit", "two-link", str(text), *fit[3:]]) == 0
     assert (
         "--dask: same.csv: read and reduced by this process; workers can begin in the middle"

@@ -33,9 +33,9 @@ def test_processes_give_what_this_one_gives() -> None:
     here = Workers()
     with open_workers(processes=2) as others:
         waiting = others.start_merge(third, 0.1, jobs, added)
-        found = others.map_jobs(third, 0.1, jobs, shares.append)
+        result = others.map_jobs(third, 0.1, jobs, shares.append)
         assert np.array_equal(waiting(), here.start_merge(third, 0.1, jobs, added)())
-        assert np.array_equal(found, here.map_jobs(third, 0.1, jobs))
+        assert np.array_equal(result, here.map_jobs(third, 0.1, jobs))
         with pytest.raises(DataError, match="log: job 2 cannot be done"):
             others.map_jobs(refused, "log", range(4))
     assert shares == [k / 7 for k in range(1, 8)]
@@ -90,5 +90,5 @@ def test_without_dask_one_line_says_how_to_get_it(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(DataError) as error, open_workers("local"):
         pass
-    told = '--dask local: Dask is not installed; pip install "modeler-robotics[dask]", or leave'
-    assert str(error.value) == f"{told} --dask out"
+    text = '--dask local: Dask is not installed; pip install "modeler-robotics[dask]", or leave'
+    assert str(error.value) == f"{text} --dask out"

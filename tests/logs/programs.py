@@ -205,8 +205,8 @@ def by_quantity_csv(folder: Path, table: Table) -> Path:
 def by_joint(folder: Path, table: Table) -> Path:
     rows = rows_of(table, q=DEG)
     for j in (1, 2, 3):
-        own = text_of(rows[:, [0, j, 3 + j]], "\t")
-        written(folder / f"joint{j}.tsv", f"time\tangle [deg]\ttorque [Nm]\n{own}")
+        local = text_of(rows[:, [0, j, 3 + j]], "\t")
+        written(folder / f"joint{j}.tsv", f"time\tangle [deg]\ttorque [Nm]\n{local}")
     return folder
 
 

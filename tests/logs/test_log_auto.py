@@ -35,8 +35,8 @@ def test_a_table_of_a_map_reads_alike(table, case):
     joints = case.compiled.spec.joints
     before = build_map(table, "[log]")
     again = build_map(json.loads(json.dumps(before.build_table(joints))), "model")
-    for own, entry in before.expand_entries(joints).items():
-        other = again.expand_entries(joints)[own]
+    for item, entry in before.expand_entries(joints).items():
+        other = again.expand_entries(joints)[item]
         assert entry.has_same_scale(other) and entry.columns[-1] == other.columns[-1]
     for name in ("names", "topic", "rate", "files"):
         assert getattr(again, name) == getattr(before, name)
@@ -64,8 +64,8 @@ def degrees(case) -> dict[str, np.ndarray]:
 def test_a_unit_by_range_is_believed_where_it_fits(case, tmp_path):
     path = parquet(tmp_path / "a.parquet", degrees(case))
     log = case.check(path, ["auto"])
-    (told,) = [line for line in log.reading_notes if "auto" in line]
-    assert "q<j> = winkel_{n-1} [deg]" in told and "time = stamp [ms]" in told
+    (lines,) = [line for line in log.reading_notes if "auto" in line]
+    assert "q<j> = winkel_{n-1} [deg]" in lines and "time = stamp [ms]" in lines
     assert not any("auto" in line for line in log.notes)  # which would be warnings
 
 
@@ -192,9 +192,9 @@ SECTIONS = [
 def test_a_mistake_in_these_tables_is_one_line(text, line):
     robot = read_builtin_robot("emps")
     text = text + robot if text.startswith("fit =") else f"{robot}\n{text}"
-    with pytest.raises(RobotError, match=line) as told:
+    with pytest.raises(RobotError, match=line) as result:
         parse_robot_text(text, "emps.toml")
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(result.value)
 
 
 def test_what_a_guess_did_not_find_is_not_sent_to_guess_again(case, tmp_path, monkeypatch, run):

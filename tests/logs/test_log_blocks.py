@@ -46,14 +46,14 @@ def test_numbers_are_those_of_the_column(name):
     column = COLUMNS[name]
     true = [float("nan") if value is None else float(value) for value in column.to_pylist()]
     for pieces in ([column], [column[:2], column[2:3], column[3:]], [column[:0], column]):
-        found = values(build_arrow_columns(pa.table({"x": pa.chunked_array(pieces)})), "x")
-        assert found.dtype == float and found.flags.writeable and found.flags.c_contiguous
-        np.testing.assert_array_equal(found, true)
+        result = values(build_arrow_columns(pa.table({"x": pa.chunked_array(pieces)})), "x")
+        assert result.dtype == float and result.flags.writeable and result.flags.c_contiguous
+        np.testing.assert_array_equal(result, true)
 
 
 def values(columns, name):
-    (found,) = [column for own, column in columns.columns if own == name]
-    return found.read_numbers()
+    (result,) = [column for item, column in columns.columns if item == name]
+    return result.read_numbers()
 
 
 def log_columns(compiled, rows=3000, seed=1):
@@ -160,9 +160,9 @@ def test_what_is_wrong_in_the_middle_is_one_line_that_names_the_row(
 ):
     path = broken(kind, tmp_path / f"run{ending}", log_columns(case.compiled))
     source = open_source(path, case.compiled.spec)
-    with pytest.raises(DataError, match=line) as told:
+    with pytest.raises(DataError, match=line) as result:
         list(source.read_blocks(SIZE))
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(result.value)
 
 
 @pytest.mark.parametrize("ending", [".parquet", ".csv"])
@@ -217,5 +217,5 @@ def test_the_text_may_go_while_arrow_parses_it(tmp_path, monkeypatch):
         return read(source, *how)
 
     monkeypatch.setattr(pa.csv, "read_csv", gone)
-    found = _TextFile(place).parse_columns(text)
-    np.testing.assert_array_equal(values(found, "q1"), [2.0, 4.0])
+    table = _TextFile(place).parse_columns(text)
+    np.testing.assert_array_equal(values(table, "q1"), [2.0, 4.0])

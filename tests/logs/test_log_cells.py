@@ -56,8 +56,8 @@ def test_lists_in_cells_are_columns(how, short, tmp_path):
 def test_names_and_units_in_brackets_are_no_lists(tmp_path):
     text = "t [s],q[1],q[2]\n[s],[deg],[deg]\n" + "".join(f"{k},{k}.5,2\n" for k in range(20))
     (tmp_path / "a.csv").write_text(text)
-    found = read_columns(tmp_path / "a.csv", ColumnRequest())
-    assert [name for name, _ in found.columns] == ["t [s]", "q[1]", "q[2]"]
+    result = read_columns(tmp_path / "a.csv", ColumnRequest())
+    assert [name for name, _ in result.columns] == ["t [s]", "q[1]", "q[2]"]
 
 
 def test_structs_are_columns(short, tmp_path):
@@ -73,7 +73,7 @@ def test_names_in_columns_say_which_joint_is_which(short, tmp_path):
     """Their order changes from row to row: as `rostopic echo -p` writes them, and as lists."""
     order = np.array([ORDERS[k % 2] for k in range(len(short.table["time"]))])
     names = np.array(JOINTS)[order]
-    q, tau = (np.take_along_axis(joined(short.table, own), order, 1) for own in ("q", "tau"))
+    q, tau = (np.take_along_axis(joined(short.table, items), order, 1) for items in ("q", "tau"))
     columns = {"%time": (short.table["time"] * 1e9).round().astype(int) + 10**18 + 10**17}
     for field, values in (("name", names), ("position", q), ("effort", tau)):
         columns |= {f"field.{field}{k}": values[:, k] for k in range(3)}

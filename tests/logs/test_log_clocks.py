@@ -116,8 +116,8 @@ COARSE = [(250.0, 0.01), (250.0, 1.0), (150.0, 0.01), (333.0, 0.1), (1000.0, 0.0
 def test_the_rate_of_a_coarse_clock(rate, step, rounded):
     k, chance = np.arange(int(20 * rate)), np.random.default_rng(3)
     time = step * rounded((k / rate + 0.3712) / step)
-    found = describe_coarse_clock(time, [chance.normal(size=k.size)])
-    assert f"to {step:g} s" in found and found.endswith(f"give --map rate={rate:g}")
+    actual = describe_coarse_clock(time, [chance.normal(size=k.size)])
+    assert f"to {step:g} s" in actual and actual.endswith(f"give --map rate={rate:g}")
 
 
 def test_rows_that_are_not_even_have_no_rate():

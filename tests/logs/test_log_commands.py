@@ -28,7 +28,7 @@ COMMANDS = [
 
 @pytest.mark.parametrize("words", COMMANDS, ids=lambda words: words.split()[0])
 def test_the_model_file_carries_the_names(slide, tmp_path, run, words):
-    found = []
+    values = []
     for model, ending in (("m.json", "mat"), ("p.json", "parquet")):
         places = {
             "model": slide / model,
@@ -39,8 +39,8 @@ def test_the_model_file_carries_the_names(slide, tmp_path, run, words):
         argv = [word.format(**places) for word in words.split()]
         status, _, err = run(*argv, "--json", tmp_path / "r.json")
         assert (status, err) == (0, "")
-        found.append(numbers(json.loads((tmp_path / "r.json").read_text())))
-    assert found[0] == pytest.approx(found[1], rel=1e-6, abs=1e-9)
+        values.append(numbers(json.loads((tmp_path / "r.json").read_text())))
+    assert values[0] == pytest.approx(values[1], rel=1e-6, abs=1e-9)
 
 
 def numbers(value):
@@ -60,9 +60,9 @@ def test_from_python_too(slide):
         "q1": {"column": "run.x", "unit": "mm", "sign": -1},
         "tau1": "run.F [kN]",
     }
-    found = compare(model, [slide / "b.mat"], mapping).to_dict()
+    data = compare(model, [slide / "b.mat"], mapping).to_dict()
     twin = compare(model, [slide / "b.parquet"]).to_dict()
-    assert found["relative_error"] == pytest.approx(twin["relative_error"], rel=1e-9)
+    assert data["relative_error"] == pytest.approx(twin["relative_error"], rel=1e-9)
     better = add(model, "asymmetric_viscous", [slide / "a.mat"], mapping=mapping)
     assert remove_last(better, [slide / "a.mat"], mapping).beta == pytest.approx(
         model.beta, rel=1e-9

@@ -61,9 +61,9 @@ def test_a_length_that_no_file_has_is_told_in_words(short, tmp_path):
     path = writers.npz(tmp_path / "run.npz", short)
     content = path.read_bytes()
     path.write_bytes(content[:-6] + b"\xff\xff\xff\x7f" + content[-2:])  # where zip's directory is
-    with pytest.raises(DataError, match=r"run\.npz: cannot be read as numpy file") as told:
+    with pytest.raises(DataError, match=r"run\.npz: cannot be read as numpy file") as result:
         LogTable(path)
-    assert "Errno" not in str(told.value)
+    assert "Errno" not in str(result.value)
 
 
 def damaged(whole: bytes, chance: random.Random, cut: bool) -> bytes:

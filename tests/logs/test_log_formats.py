@@ -128,5 +128,5 @@ def test_units_that_are_not_understood_are_told(tmp_path):
         file["p"].attrs["units"] = "furlong"
     table = LogTable(tmp_path / "run.h5")
     assert table.read_numbers("q1") == pytest.approx(np.full(20, np.pi / 180))
-    told = 'the file states units that are not understood, taken as SI: p "furlong"'
-    assert told in table.notes
+    text = 'the file states units that are not understood, taken as SI: p "furlong"'
+    assert text in table.notes

@@ -16,7 +16,7 @@ def _found(names: list[str]) -> dict[str, tuple[str, tuple[str, ...]]]:
 
 
 @with_cases(
-    "names, own, template, labels",
+    "names, local, template, labels",
     (
         ["Ellbogen Winkel [Grad]", "Schulter Winkel [Grad]"],
         "q",
@@ -27,8 +27,8 @@ def _found(names: list[str]) -> dict[str, tuple[str, tuple[str, ...]]]:
     (["angle elbow (deg)", "angle shoulder (deg)"], "q", "angle {} (deg)", ("elbow", "shoulder")),
     (["shoulder pan pos", "shoulder lift pos"], "q", "{} pos", ("shoulder pan", "shoulder lift")),
 )
-def test_joints_that_are_words(names, own, template, labels) -> None:
-    assert _found(names)[own] == (template, labels)
+def test_joints_that_are_words(names, local, template, labels) -> None:
+    assert _found(names)[local] == (template, labels)
 
 
 def test_one_such_column_alone_is_no_pattern() -> None:
@@ -51,9 +51,9 @@ def test_joints_with_units_of_their_own_are_one_quantity() -> None:
     columns = {"t": np.arange(50.0)}
     names = ("axis1 [deg]", "axis2 [deg]", "axis3 [mm]", "axis1 [A]", "axis2 [A]", "axis3 [A]")
     columns |= {name: np.sin(k + np.arange(50.0)) for k, name in enumerate(names)}
-    found = guess_columns(columns, {})
-    by = {one.quantity: one for one in found}
+    table = guess_columns(columns, {})
+    by = {one.quantity: one for one in table}
     assert by["q"].columns == names[:3] and by["q"].units == ("deg", "deg", "mm")
     assert by["current"].columns == names[3:]
-    lines = format_log_table(found).splitlines()
+    lines = format_log_table(table).splitlines()
     assert lines[2:4] == ['"q<j>" = "axis{j} [deg]"', 'q3 = "axis3 [mm]"']

@@ -18,23 +18,23 @@ from tests.logs.writers import parquet
 @pytest.fixture
 def plain(case):
     """Time, positions, their speeds and torques in our names and SI units."""
-    found = {"time": case.table["time"]}
+    table = {"time": case.table["time"]}
     for j in "123":
-        found[f"q{j}"] = case.table[f"q{j}"]
-        found[f"qd{j}"] = np.gradient(found[f"q{j}"], found["time"])
-        found[f"tau{j}"] = case.table[f"tau{j}"]
-    return found
+        table[f"q{j}"] = case.table[f"q{j}"]
+        table[f"qd{j}"] = np.gradient(table[f"q{j}"], table["time"])
+        table[f"tau{j}"] = case.table[f"tau{j}"]
+    return table
 
 
 @pytest.fixture
 def table(plain):
     """Four times as far: positions and speeds in degrees, torques."""
-    found = {"time": plain["time"]}
-    for own, name, factor in (("q", "pos", 4.0), ("qd", "vel", 4.0), ("tau", "tau", None)):
+    table = {"time": plain["time"]}
+    for items, name, factor in (("q", "pos", 4.0), ("qd", "vel", 4.0), ("tau", "tau", None)):
         for j in "123":
-            values = plain[f"{own}{j}"]
-            found[f"{name}_{j}"] = values.copy() if factor is None else factor * np.rad2deg(values)
-    return found
+            values = plain[f"{items}{j}"]
+            table[f"{name}_{j}"] = values.copy() if factor is None else factor * np.rad2deg(values)
+    return table
 
 
 @pytest.fixture
@@ -85,8 +85,8 @@ def test_what_is_in_a_log_and_the_suggestion_serves_as_a_mapping(log_output, tmp
 
 
 def test_gaps_repeats_and_steps_back(inspected, table):
-    kept = np.delete(np.arange(len(table["time"])), np.r_[100:103, 2000])
-    clock = inspected({name: values[kept] for name, values in table.items()}).clock
+    subset = np.delete(np.arange(len(table["time"])), np.r_[100:103, 2000])
+    clock = inspected({name: values[subset] for name, values in table.items()}).clock
     assert (clock.gaps, clock.lost_rows) == (2, 4)
     assert (clock.largest_gap, clock.largest_gap_start) == pytest.approx((0.004, 0.099))
     table["time"] = table["time"].copy()
@@ -100,13 +100,13 @@ def test_jitter_and_a_clock_that_ticks(inspected, table, plain):
     """Steps of 10 and 12 ms of a clock of 2 ms are as even as that clock can say."""
     rng, n = np.random.default_rng(1), len(table["time"])
     table["time"] = table["time"] + 1e-4 * rng.standard_normal(n)
-    found = inspected(table)
-    assert found.clock.jitter == pytest.approx(0.1 * np.sqrt(2.0), rel=0.1)
-    assert any("is not uniform" in doubt for doubt in found.warnings)
+    report = inspected(table)
+    assert report.clock.jitter == pytest.approx(0.1 * np.sqrt(2.0), rel=0.1)
+    assert any("is not uniform" in doubt for doubt in report.warnings)
     plain["time"] = np.cumsum(np.where(np.arange(n) % 3 == 0, 0.012, 0.010))
-    found = inspected({k: v for k, v in plain.items() if not k.startswith("qd")})
-    assert found.warnings == () and found.clock.jitter > 0.05
-    assert found.clock.tick == pytest.approx(0.002)
+    report = inspected({k: v for k, v in plain.items() if not k.startswith("qd")})
+    assert report.warnings == () and report.clock.jitter > 0.05
+    assert report.clock.tick == pytest.approx(0.002)
 
 
 SPOILT = [
@@ -169,17 +169,17 @@ def test_a_joint_that_turns_on_is_in_rad_if_its_speed_agrees(inspected, plain):
     """12 rad is no degree where the speed is its derivative: units of both agree, and it turns."""
     factor = 4.0 / np.ptp(plain["q1"])
     plain["q1"], plain["qd1"] = factor * plain["q1"] + 9.0, factor * plain["qd1"]
-    found = inspected(plain)
-    assert found.warnings == () and found.suggested_map == ""
+    report = inspected(plain)
+    assert report.warnings == () and report.suggested_map == ""
 
 
-@pytest.mark.parametrize(("own", "unit"), [("q", "deg"), ("tau", "mN m")])
-def test_only_the_joint_of_another_unit_is_named(inspected, plain, own, unit):
+@pytest.mark.parametrize(("local", "unit"), [("q", "deg"), ("tau", "mN m")])
+def test_only_the_joint_of_another_unit_is_named(inspected, plain, local, unit):
     table = {name: v for name, v in plain.items() if not name.startswith("qd")}
-    table[f"{own}2"] = table[f"{own}2"] * (np.rad2deg(4.0) if own == "q" else 1e3)
-    found = inspected(table)
-    assert [line.split(" looks")[0] for line in found.warnings] == [f"{own}2"]
-    assert tomllib.loads(found.suggested_map)["log"] == {f"{own}2": f"{own}2 [{unit}]"}
+    table[f"{local}2"] = table[f"{local}2"] * (np.rad2deg(4.0) if local == "q" else 1e3)
+    report = inspected(table)
+    assert [line.split(" looks")[0] for line in report.warnings] == [f"{local}2"]
+    assert tomllib.loads(report.suggested_map)["log"] == {f"{local}2": f"{local}2 [{unit}]"}
 
 
 def test_a_joint_at_rest_is_no_doubt(inspected, plain):
@@ -198,10 +198,10 @@ def test_speeds_of_some_joints_are_checked(inspected, plain):
 
 
 def test_what_is_not_recognised_is_a_doubt(inspected, plain):
-    found = inspected({"time": plain["time"], "foo": plain["q1"], 'b"ar': plain["tau1"]})
-    assert "no columns look like positions or torques" in found.warnings[0]
-    assert '"foo"' in found.suggested_map and '# "q<j>"' in found.suggested_map
-    build_map(tomllib.loads(found.suggested_map)["log"], "suggested")
+    report = inspected({"time": plain["time"], "foo": plain["q1"], 'b"ar': plain["tau1"]})
+    assert "no columns look like positions or torques" in report.warnings[0]
+    assert '"foo"' in report.suggested_map and '# "q<j>"' in report.suggested_map
+    build_map(tomllib.loads(report.suggested_map)["log"], "suggested")
 
 
 @pytest.mark.rotating("long tests of logs")

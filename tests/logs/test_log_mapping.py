@@ -109,10 +109,10 @@ CONVERTED = [
 ]
 
 
-@pytest.mark.parametrize(("mapping", "own", "expected"), CONVERTED)
-def test_columns_are_converted(tmp_path, mapping, own, expected):
+@pytest.mark.parametrize(("mapping", "local", "expected"), CONVERTED)
+def test_columns_are_converted(tmp_path, mapping, local, expected):
     table, values = table_of(tmp_path, mapping)
-    assert table.read_numbers(own) == pytest.approx(expected(values), rel=1e-13, abs=1e-13)
+    assert table.read_numbers(local) == pytest.approx(expected(values), rel=1e-13, abs=1e-13)
 
 
 def test_a_column_may_be_called_with_its_unit(tmp_path):

@@ -192,8 +192,8 @@ def test_points_of_a_trajectory_are_planned_rows(short, tmp_path):
     q, start = joined(short.table, "q")[:200], stamps(short.table)[0]
     points = [ros.point(row, since=0.01 * k) for k, row in enumerate(q)]
     message = ros.of(kind, header=ros.header(start), joint_names=[*JOINTS], points=points)
-    found = read_columns(ros.bag(tmp_path / "bag", kind, [(start + 7, message)]), ColumnRequest())
-    columns = {name: column.read_numbers() for name, column in found.columns}
+    result = read_columns(ros.bag(tmp_path / "bag", kind, [(start + 7, message)]), ColumnRequest())
+    columns = {name: column.read_numbers() for name, column in result.columns}
     assert columns["time"] == pytest.approx(0.01 * np.arange(200))
     assert columns["arm_controller/state.points.positions[elbow]"] == pytest.approx(q[:, 2])
     with pytest.raises(DataError, match="no column q1"):  # planned is not measured
@@ -206,5 +206,5 @@ def test_headers_that_stand_still_are_no_clock(tmp_path):
         ("/js", 10**9 + k * 10**6, json.dumps({"header": header, "q": k}).encode())
         for k in range(30)
     ]
-    found = read_columns(mcap_of(tmp_path / "run.mcap", "", messages), ColumnRequest())
-    assert dict(found.columns)["time"].read_numbers()[-1] == pytest.approx(0.029)
+    result = read_columns(mcap_of(tmp_path / "run.mcap", "", messages), ColumnRequest())
+    assert dict(result.columns)["time"].read_numbers()[-1] == pytest.approx(0.029)

@@ -55,10 +55,10 @@ def test_every_kind_gives_the_run_and_its_blocks_the_same_rows(name, case, short
     assert len(parts) > 5 and sum(part.rows for part in parts) == whole.rows
     assert abs(blocks.rows - whole.rows) < 0.1 * whole.rows
     for column, values in whole.columns:
-        found = [dict(part.columns)[column] for part in parts]
+        items = [dict(part.columns)[column] for part in parts]
         if values.is_numeric:
             assert np.array_equal(
-                np.concatenate([f.read_numbers() for f in found]), values.read_numbers()
+                np.concatenate([f.read_numbers() for f in items]), values.read_numbers()
             )
     window = blocks.read_window(0.5, 60)
     assert (window.units, window.reading_notes, window.rate) == (
@@ -77,17 +77,17 @@ def test_every_kind_gives_the_run_and_its_blocks_the_same_rows(name, case, short
 def test_a_whole_number_among_floats_stays_one(tmp_path):
     stamps = [f"{START + k * 1000}" for k in range(20)] + [f"{float(START + 20000):.1f}"]
     path = written(tmp_path / "a.csv", "stamp,q1\n" + "".join(f"{s},1\n" for s in stamps))
-    found = dict(read_columns(path, ColumnRequest()).columns)["stamp"].read_numbers()
-    assert found == pytest.approx(np.arange(21) * 1000.0, abs=300)  # what a float keeps
+    result = dict(read_columns(path, ColumnRequest()).columns)["stamp"].read_numbers()
+    assert result == pytest.approx(np.arange(21) * 1000.0, abs=300)  # what a float keeps
     with pytest.raises(DataError, match='row 21: got "never"'):
         LogTable(written(path, path.read_text().replace(stamps[-1], "never"))).read_numbers("stamp")
 
 
 def test_a_dataset_is_all_its_files(short, tmp_path):
     lerobot(tmp_path, short.table)
-    found = read_columns(tmp_path, ColumnRequest())
-    columns = dict(found.columns)
-    assert found.rows == len(short.table["time"]) and found.rate == 1000
+    result = read_columns(tmp_path, ColumnRequest())
+    columns = dict(result.columns)
+    assert result.rows == len(short.table["time"]) and result.rate == 1000
     assert columns["timestamp"].read_numbers() == pytest.approx(short.table["time"], abs=1e-9)
     assert set(columns["segment"].read_numbers()) == {0.0, 1.0}
     assert "action[elbow_flex]" in columns
@@ -108,8 +108,8 @@ def test_files_of_log_are_read_by_what_they_hold(ending, short, tmp_path):
     written(Path(f"{head}tau.csv"), text_of(rows[:, 4:], ";", ","))
     files = {"q": f"{ending}q.csv", "tau": f"{ending}tau.csv"}
     short.check(place, {"files": files})
-    found = LogTable(place, build_map({"files": files}, "[log]"))
-    assert found.names == ("time", "q1", "q2", "q3", "tau1", "tau2", "tau3")
+    result = LogTable(place, build_map({"files": files}, "[log]"))
+    assert result.names == ("time", "q1", "q2", "q3", "tau1", "tau2", "tau3")
     with pytest.raises(DataError, match=r"there is no file .*other_q\.csv; expected a log, or"):
         LogTable(tmp_path / "other", build_map({"files": {"q": "_q.csv"}}, "[log]"))
 
@@ -137,9 +137,9 @@ def numbers(rows):
 
 
 def test_clocks_a_little_apart_are_one(tmp_path):
-    found = read_columns(files(tmp_path, q=clock(), tau=clock(2e-4)), ColumnRequest())
-    assert "up to 0.0002 apart: that of q.csv" in found.reading_notes[0]
-    assert [name for name, _ in found.columns] == ["time", "q", "tau"]
+    result = read_columns(files(tmp_path, q=clock(), tau=clock(2e-4)), ColumnRequest())
+    assert "up to 0.0002 apart: that of q.csv" in result.reading_notes[0]
+    assert [name for name, _ in result.columns] == ["time", "q", "tau"]
 
 
 def test_dates_of_files_are_compared(tmp_path):
@@ -166,9 +166,9 @@ BROKEN = [
 @pytest.mark.parametrize(("texts", "line"), BROKEN)
 def test_what_cannot_be_read_is_one_line(tmp_path, texts, line):
     place = files(tmp_path, **texts)
-    with pytest.raises(DataError, match=re.escape(line)) as told:
+    with pytest.raises(DataError, match=re.escape(line)) as result:
         LogTable(place).read_numbers("time")
-    assert "\n" not in str(told.value)
+    assert "\n" not in str(result.value)
 
 
 def test_a_damaged_dataset_is_one_line(short, tmp_path):
@@ -180,9 +180,9 @@ def test_a_damaged_dataset_is_one_line(short, tmp_path):
 
 def test_sheets_are_chosen_by_name(short, tmp_path):
     path = sheet(tmp_path, short.table)
-    found = read_columns(path, ColumnRequest())
-    assert [(s.name, s.clock) for s in found.streams] == [("Sheet", False), ("data", True)]
-    assert read_columns(path, ColumnRequest("data")).rows == found.rows
+    result = read_columns(path, ColumnRequest())
+    assert [(s.name, s.clock) for s in result.streams] == [("Sheet", False), ("data", True)]
+    assert read_columns(path, ColumnRequest("data")).rows == result.rows
     with pytest.raises(DataError, match=r"topic x: no sheet of that name; the sheets are Sheet, d"):
         read_columns(path, ColumnRequest("x"))
     with pytest.raises(DataError, match="no sheet with rows of numbers"):
@@ -208,8 +208,8 @@ RATES = [
 @pytest.mark.parametrize(("line", "rate"), RATES)
 def test_a_line_above_tells_the_rate(line, rate, tmp_path):
     path = written(tmp_path / "a.txt", f"{line}\nq1;tau1;x\n" + "0.1;2.5;3\n" * 20)
-    found = read_columns(path, ColumnRequest())
-    assert found.rate == (None if rate is None else pytest.approx(rate))
+    result = read_columns(path, ColumnRequest())
+    assert result.rate == (None if rate is None else pytest.approx(rate))
 
 
 @pytest.mark.parametrize(("name", "value"), [("fs", 500), ("dt", 2e-3), ("fps", 500.0)])
@@ -244,9 +244,9 @@ HEADS = [
 def test_heads_of_other_programs(head, delimiter, end, names, tmp_path):
     values = np.arange(100.0).reshape(20, 5) / 8.0
     body = text_of(values, delimiter).replace("\n", f"{end}\n")
-    found = read_columns(written(tmp_path / "a.csv", head + body), ColumnRequest())
-    assert [name for name, _ in found.columns] == names
-    read = np.column_stack([column.read_numbers() for _, column in found.columns[:5]])
+    result = read_columns(written(tmp_path / "a.csv", head + body), ColumnRequest())
+    assert [name for name, _ in result.columns] == names
+    read = np.column_stack([column.read_numbers() for _, column in result.columns[:5]])
     assert (read == values).all()
 
 
@@ -278,12 +278,12 @@ def test_any_habit_is_read_back(
     body = text_of(values, delimiter, "," if comma else ".", 17)
     path = tmp_path_factory.mktemp("habit") / "a.txt"
     written(path, "\n".join([*lines, body]), encoding, ends)
-    found = read_columns(path, ColumnRequest())
+    result = read_columns(path, ColumnRequest())
     first = "c1" if names == "none" else "ch0"
-    assert found.columns[0][0] == first and found.rows == 40
-    assert np.column_stack([c.read_numbers() for _, c in found.columns]) == pytest.approx(
+    assert result.columns[0][0] == first and result.rows == 40
+    assert np.column_stack([c.read_numbers() for _, c in result.columns]) == pytest.approx(
         values, rel=1e-12
     )
-    assert dict(found.units) == (
+    assert dict(result.units) == (
         {f"ch{k}": "rad" for k in range(width)} if units and names != "none" else {}
     )

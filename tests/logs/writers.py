@@ -50,13 +50,13 @@ MAPPING = {
 
 def under(head: str, mapping: Mapping[str, object]) -> dict[str, object]:
     """The mapping with a name in front of every column."""
-    found: dict[str, object] = {}
-    for own, entry in mapping.items():
+    table: dict[str, object] = {}
+    for item, entry in mapping.items():
         if isinstance(entry, str):
-            found[own] = head + entry
+            table[item] = head + entry
         else:
-            found[own] = {**entry, "column": head + entry["column"]}  # type: ignore[dict-item]
-    return found
+            table[item] = {**entry, "column": head + entry["column"]}  # type: ignore[dict-item]
+    return table
 
 
 def parquet(path: Path, table: Table) -> Path:

@@ -27,13 +27,13 @@ CLOSED = 1e-9
 
 def without_home(text: str) -> str:
     """The robot file without the table."""
-    kept, table = [], ""
+    stored, table = [], ""
     for line in text.splitlines():
         table = line.split("#")[0].strip() if line.startswith("[") else table
         if table != "[home]":
-            kept.append(line)
-    assert "home" not in tomllib.loads("\n".join(kept))
-    return "\n".join(kept)
+            stored.append(line)
+    assert "home" not in tomllib.loads("\n".join(stored))
+    return "\n".join(stored)
 
 
 @cache
@@ -50,8 +50,8 @@ def check(found: HomeModes) -> None:
         np.all(linkage.loops.are_aligned(u))
         and np.min(linkage.loops.compute_singularity_distance(u)) > THRESHOLDS.min_singular_value
     )
-    given = list(linkage.loops.actuated)
-    assert np.ptp(u[:, given], axis=0).max() == 0.0
+    inputs = list(linkage.loops.actuated)
+    assert np.ptp(u[:, inputs], axis=0).max() == 0.0
     shapes = linkage.compute_shape(u)
     apart = np.max(np.abs(shapes[:, None] - shapes), axis=2) + np.eye(len(u))
     assert apart.min() > 1e-5
@@ -69,9 +69,9 @@ def check_found(text: str) -> None:
     assert model.robot.home == home.robot.home
     check(find_modes_near(bare, {}))
     actuated = {joint.name: robot.home.get(joint.name, 0.0) for joint in robot.coordinates}
-    found = find_modes_near(robot, actuated)
-    check(found)
-    assert found.stated_index is not None
+    matches = find_modes_near(robot, actuated)
+    check(matches)
+    assert matches.stated_index is not None
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
@@ -129,10 +129,10 @@ def platform_angles(lengths: np.ndarray, R: float, r: float) -> list[float]:
     "lengths", [(0.75, 0.95, 0.85), pytest.param((0.7, 0.75, 0.65), marks=pytest.mark.rotating)]
 )
 def test_all_modes_of_a_planar_platform_are_found(lengths) -> None:
-    found = find_modes_near(of_text(RPR), dict(zip(("21", "22", "23"), lengths, strict=True)))
-    check(found)
-    place = [joint.name for joint in found.linkage.free].index("P")
-    turns = sorted(mode.posture[place] for mode in found.modes)
+    matches = find_modes_near(of_text(RPR), dict(zip(("21", "22", "23"), lengths, strict=True)))
+    check(matches)
+    place = [joint.name for joint in matches.linkage.free].index("P")
+    turns = sorted(mode.posture[place] for mode in matches.modes)
     expected = platform_angles(np.array(lengths), 0.8, 0.2)
     assert len(expected) >= 2
     assert turns == pytest.approx(expected, abs=1e-4)
@@ -160,9 +160,9 @@ def test_limits_choose_the_posture() -> None:
 
 def test_limits_that_cannot_be_kept_are_told() -> None:
     bare = CRANK[: CRANK.index("[home]")]
-    for least, told in ((0.2, False), (0.5, True)):  # the slider reaches 0.45
+    for least, text in ((0.2, False), (0.5, True)):  # the slider reaches 0.45
         home = complete_home(of_text(f"{bare}[limits]\n3 = [{least}, 0.6, 1, 1]\n"))
-        assert ("; it is outside [limits], which none keeps there: check" in home.message) is told
+        assert ("; it is outside [limits], which none keeps there: check" in home.message) is text
 
 
 def test_a_home_out_of_reach_is_moved_and_told() -> None:
@@ -190,10 +190,10 @@ def test_a_singular_home_is_refused_with_what_is_lost() -> None:
     text = RPR + '[home]\nqP = 0.1\n"q1{i}" = 1.5\n"q2{i}" = LENGTH\n'
     with pytest.raises(LoopError) as caught:
         derive_model(of_text(text.replace("LENGTH", "0.6")))
-    told = str(caught.value)
-    assert "the loops are singular at [home]: joints P, 11, 12, 13 could move there" in told
-    assert "(qP : q11 : q12 : q13 = 1 : -0.33 : -0.33 : -0.33; singular value " in told
-    stated = "\n".join(told.split("such as ")[1].split(", "))
+    message = str(caught.value)
+    assert "the loops are singular at [home]: joints P, 11, 12, 13 could move there" in message
+    assert "(qP : q11 : q12 : q13 = 1 : -0.33 : -0.33 : -0.33; singular value " in message
+    stated = "\n".join(message.split("such as ")[1].split(", "))
     again = of_text(f"{RPR}[home]\n{stated}\n")
     assert complete_home(again).robot is again
     model = derive_model(of_text(text.replace("LENGTH", "0.61")))
@@ -207,22 +207,22 @@ def test_a_singular_home_is_refused_with_what_is_lost() -> None:
 def test_a_found_home_is_the_same_as_a_written_one() -> None:
     """Signatures are of the emitted text: to the last digit."""
     bare = of_text(without_home(read_builtin_robot("five-bar")))
-    found = derive_model(bare)
+    result = derive_model(bare)
     lines = [f"q{name} = {value!r}" for name, value in complete_home(bare).robot.home.items()]
     stated = derive_model(of_text(bare.text + "\n[home]\n" + "\n".join(lines)))
-    assert found.closure is not None and stated.closure is not None
-    assert found.closure.home == stated.closure.home
-    assert found.robot.relations.keys() == stated.robot.relations.keys()
+    assert result.closure is not None and stated.closure is not None
+    assert result.closure.home == stated.closure.home
+    assert result.robot.relations.keys() == stated.robot.relations.keys()
 
 
 def test_a_home_is_far_from_where_a_parallelogram_could_cross() -> None:
     """In the middle of the limits it is flat; so it stands elsewhere within them, uncrossed."""
-    found = find_modes_near(of_text(PARALLELOGRAM + "[limits]\n1 = [-0.6, 0.6, 1, 1]\n"), {})
-    check(found)
-    q1, q2, q4 = found.modes[0].posture
-    assert 0.3 < abs(q1) <= 0.6 and found.modes[0].is_within_limits
+    matches = find_modes_near(of_text(PARALLELOGRAM + "[limits]\n1 = [-0.6, 0.6, 1, 1]\n"), {})
+    check(matches)
+    q1, q2, q4 = matches.modes[0].posture
+    assert 0.3 < abs(q1) <= 0.6 and matches.modes[0].is_within_limits
     assert (q2, q4) == pytest.approx((-q1, q1), abs=1e-9)
-    assert len(found.modes) == 2 and found.modes[0].singularity_distance > 0.1
+    assert len(matches.modes) == 2 and matches.modes[0].singularity_distance > 0.1
 
 
 @pytest.mark.parametrize("name", ["wrist", "orthoglide-leg"])

@@ -53,12 +53,12 @@ def far_and_near(home: np.ndarray) -> np.ndarray:
 def check_bound(emitted: EmittedModule, folder: Path) -> None:
     closure = emitted.spec.closure
     rows = far_and_near(np.array([closure.home[k] for k in closure.actuated]))
-    found, allowed = counted(emitted, folder, rows)
-    assert len(found) == len(rows) and found[:, 1].max() <= allowed
-    assert set(found[:, 0]) <= {DONE, OPEN, SINGULAR, UNFINISHED}
+    result, allowed = counted(emitted, folder, rows)
+    assert len(result) == len(rows) and result[:, 1].max() <= allowed
+    assert set(result[:, 0]) <= {DONE, OPEN, SINGULAR, UNFINISHED}
     moved = np.abs(rows - rows[0]).max(axis=1)
-    assert np.all(found[moved < 1e-6, 0] == DONE)
-    assert np.all(found[moved > 1e5, 0] != DONE)
+    assert np.all(result[moved < 1e-6, 0] == DONE)
+    assert np.all(result[moved > 1e5, 0] != DONE)
     text = emitted.files[f"{emitted.spec.prefix}.h"]
     assert int(re.search(r"_MAX_CLOSURE_EVALUATIONS (\d+)", text)[1]) == allowed
     assert (
@@ -99,8 +99,8 @@ def test_a_log_marks_the_samples_that_are_not_finite():
 
 def test_torques_that_overflow_are_told_too():
     emitted = with_values("five-bar")
-    functions, given = Functions(emitted), motion("five-bar", 1)
-    rows = [given["q"][0], np.full(2, 1e200), given["qdd"][0]]
+    functions, inputs = Functions(emitted), motion("five-bar", 1)
+    rows = [inputs["q"][0], np.full(2, 1e200), inputs["qdd"][0]]
     out = np.zeros(2)
     pointers = [a.ctypes.data_as(ctypes.c_void_p) for a in (*rows, out)]
     call = functions._library.five_bar_fitted_inverse_dynamics

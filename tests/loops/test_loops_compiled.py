@@ -20,10 +20,10 @@ def close(a, b, tolerance=1e-11):
 def test_regressors_and_observation_are_those_of_the_graph(name):
     c, base = plain(name), module(name).base
     (q, qd, qdd), _, phi = closed(name, 25)
-    kept = [parameter.column for parameter in base.parameters]
+    rest = [parameter.column for parameter in base.parameters]
     close(c.regressor(q, qd, qdd), phi)
-    close(c.base_regressor(q, qd, qdd), phi[:, :, kept])
-    close(c.observation(q, qd, qdd), phi[:, :, kept].reshape(-1, base.rank))
+    close(c.base_regressor(q, qd, qdd), phi[:, :, rest])
+    close(c.observation(q, qd, qdd), phi[:, :, rest].reshape(-1, base.rank))
 
 
 @pytest.mark.parametrize("name", one_always(CLOSED, *ALWAYS))

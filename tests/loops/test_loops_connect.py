@@ -77,12 +77,12 @@ def parallelograms() -> tuple[str, str, str, str]:
         )
 
     foot = rng.uniform(-0.3, 0.3, 3).round(4)
-    (ground, arm), (crank, seat, gap) = (level(), level()), (steep(), steep(), steep())
+    (base, arm), (crank, seat, gap) = (level(), level()), (steep(), steep(), steep())
     hand = bar("hand", offs[3] + arm, 4, gap)
     inner = bar("arm", offs[1] + seat, 3, arm, hand) + bar("rod", offs[1] + seat + gap, 5, arm)
-    both = bar("crank", foot, 0, crank, bar("coupler", offs[0] + crank, 1, ground, inner))
-    both += bar("rocker", foot + ground, 2, crank)
-    meetings = f"coupler rocker {text(offs[1] + ground)}; hand rod {text(offs[4] + gap)}"
+    both = bar("crank", foot, 0, crank, bar("coupler", offs[0] + crank, 1, base, inner))
+    both += bar("rocker", foot + base, 2, crank)
+    meetings = f"coupler rocker {text(offs[1] + base)}; hand rod {text(offs[4] + gap)}"
     return PLANAR, both, meetings, "crank arm"
 
 
@@ -93,8 +93,8 @@ NAMES = list(TEXTS)
 def mjcf(name):
     joint, bodies, meetings, motors = TEXTS[name]
     ties = ""
-    for meeting in meetings.split("; "):
-        one, two, *anchor = meeting.split()
+    for crossover in meetings.split("; "):
+        one, two, *anchor = crossover.split()
         other = "" if two == "-" else f'body2="{two}"'
         ties += f'<connect body1="{one}" {other} anchor="{" ".join(anchor)}"/>'
     motors = "".join(f'<motor joint="{motor}"/>' for motor in motors.split())
@@ -155,9 +155,9 @@ class Loop:
         """qd and qdd of all joints: J qd = 0, J qdd + dJ/dt qd = 0."""
         m, d, J = self.model, self.data, self.gap(q)[1]
 
-        def carried(given, drift):
+        def carried(inputs, drift):
             full = np.zeros(m.nv)
-            full[self.driven] = given
+            full[self.driven] = inputs
             right = -drift - J @ full
             full[self.passive] = np.linalg.lstsq(J[:, self.passive], right, rcond=1e-9)[0]
             return full

@@ -104,8 +104,8 @@ def test_further_robots(name, loop_robots_folder):
         low, high = base.proof.sampling.ranges["1"]
         assert -3.0 <= low < -2.5 and 2.5 < high <= 3.0
         assert "on walks from [home]" in " ".join(format_proof(base.proof).split())
-        told = serialise_base_parameters(robot.name, base)["certificate"]["sampling"]
-        assert told["ranges"]["1"] == [low, high] and told["distance_to_singularity"] > 0.01
+        text = serialise_base_parameters(robot.name, base)["certificate"]["sampling"]
+        assert text["ranges"]["1"] == [low, high] and text["distance_to_singularity"] > 0.01
     if name == "twoloops_poorhome":  # from there Newton of the tests goes to another mode
         robot = read_robot(loop_robots_folder / "twoloops.toml")
     check_laws(robot, model, base)

@@ -78,17 +78,17 @@ class Closed:
 
     def follow(self, q: np.ndarray) -> np.ndarray:
         """Postures along a path, each closed from the one before; the last may be refused: NaN."""
-        found, u = [], np.array(self.closure.home)
+        items, u = [], np.array(self.closure.home)
         out, status = np.empty((1, len(u))), np.zeros(1, dtype=np.intc)
         library = self.compiled._library
         function = next(f for f in library.spec.functions if f.name.endswith("close_from"))
         for row in q:
             library.run_batch(function, [row[None].copy(), u[None].copy()], out, status)
             u = out[0].copy() if status[0] == 0 else np.full(len(u), np.nan)
-            found.append(u)
+            items.append(u)
             if status[0]:
                 break
-        return self.whole(np.array(found).reshape(len(found), len(u)))
+        return self.whole(np.array(items).reshape(len(items), len(u)))
 
     def ranges(self) -> tuple[np.ndarray, np.ndarray]:
         """Of the coordinates: half a turn or half a size around home."""
@@ -198,9 +198,9 @@ def check(closed: Closed, name: str) -> None:
         u = closed.related(np.random.default_rng(seed), POSTURES)
         assert np.max(np.abs(open_at(closed.oracle, u))) < OPEN
         return
-    found = postures(closed, seed)
-    lawful(found)
-    assert found.clear > 0.02 * POSTURES
+    result = postures(closed, seed)
+    lawful(result)
+    assert result.clear > 0.02 * POSTURES
     lawful(walk(closed, seed))
 
 
@@ -228,8 +228,8 @@ def test_postures_of_another_branch_are_seen():
     modes = find_modes_near(closed.oracle.robot, q)
     mode = dict(zip([j.name for j in modes.linkage.free], modes.modes[1].posture, strict=True))
     closed.home = np.array([mode[name] for name in names])
-    found = postures(closed, 1)
-    assert found.open == 0 and found.other == found.done > 0.5 * POSTURES
+    result = postures(closed, 1)
+    assert result.open == 0 and result.other == result.done > 0.5 * POSTURES
 
 
 def test_a_way_through_a_bifurcation_ends_there():

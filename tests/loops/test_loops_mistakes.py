@@ -24,10 +24,10 @@ MISTAKES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("old", "new", "told"), [pytest.param(*m[1:], id=m[0]) for m in MISTAKES])
-def test_what_is_wrong_with_a_loop_is_told(old, new, told):
+@pytest.mark.parametrize(("old", "new", "text"), [pytest.param(*m[1:], id=m[0]) for m in MISTAKES])
+def test_what_is_wrong_with_a_loop_is_told(old, new, text):
     assert CRANK.count(old) == 1
-    with pytest.raises(LoopError, match=told) as caught:
+    with pytest.raises(LoopError, match=text) as caught:
         derive_model(parse_robot_text(CRANK.replace(old, new), "crank.toml"))
     assert str(caught.value).startswith("crank: ") and "\n" not in str(caught.value)
 
@@ -41,9 +41,9 @@ def test_opposite_axes_are_not_a_closed_loop():
 
 def test_coefficients_of_robots_with_loops_are_refused(capsys):
     assert main(["derive", "five-bar", "--closed-form", "--expanded"]) == 1
-    told = capsys.readouterr().err
-    assert told.count("\n") == 1 and told.startswith("modeler: five-bar: coefficients and expanded")
-    assert "leave out --terms" in told and "--closed-form, which has J_t" in told
+    text = capsys.readouterr().err
+    assert text.count("\n") == 1 and text.startswith("modeler: five-bar: coefficients and expanded")
+    assert "leave out --terms" in text and "--closed-form, which has J_t" in text
 
 
 @pytest.mark.parametrize("lean", [0.0, 1e-7])

@@ -43,12 +43,12 @@ def replayed(robot, standard, tau, start):
     places = [model.joint(joint.name).qposadr[0] for joint in robot.moving_joints]
     motors = [model.joint(joint.name).dofadr[0] for joint in robot.coordinates]
     data.qpos[places] = start
-    found = [start]
+    values = [start]
     for torque in tau:
         data.qfrc_applied[motors] = torque
         mujoco.mj_step(model, data)
-        found.append(data.qpos[places].copy())
-    return np.array(found)
+        values.append(data.qpos[places].copy())
+    return np.array(values)
 
 
 @pytest.mark.parametrize("name", ROBOTS)
@@ -64,12 +64,12 @@ def test_our_torques_carry_out_our_motion(name):
     tau = c.inverse_dynamics(*middle, c.base_parameters(chi))
     start = compute_closed_postures(robot, build_constraints(robot), q[:1])[0]
     names = [joint.name for joint in robot.moving_joints]
-    given = [names.index(joint.name) for joint in robot.coordinates]
-    right = replayed(robot, standard, tau, start)[:, given]
+    inputs = [names.index(joint.name) for joint in robot.coordinates]
+    right = replayed(robot, standard, tau, start)[:, inputs]
     moved = np.ptp(q, axis=0)
     assert np.all(moved > 0.02)
     error = np.abs(right - q).max(axis=0) / moved
     assert np.all(error < 2e-4)  # falls with the square of the step: 1e-6 to 1e-4 here
     if name == "five-bar":  # what is compared is sharp: a hundredth of the torque shows
-        wrong = replayed(robot, standard, 1.01 * tau, start)[:, given]
+        wrong = replayed(robot, standard, 1.01 * tau, start)[:, inputs]
         assert np.max(np.abs(wrong - q).max(axis=0) / moved) > 2e-3

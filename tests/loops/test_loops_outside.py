@@ -15,12 +15,12 @@ ROBOTS = one_always(LOOPED, "five-bar")
 
 @pytest.mark.parametrize("name", ROBOTS)
 def test_torques_are_those_of_the_oracle(name):
-    c, written, found = plain(name), read_robot(name), Oracle(module(name).model.robot)
+    c, written, result = plain(name), read_robot(name), Oracle(module(name).model.robot)
     chi = np.random.default_rng(4).normal(size=len(c.spec.standard))
     names = [parameter.name for parameter in c.spec.standard]
     oracle = Oracle(written, dict(zip(names, chi, strict=True)))
     (q, qd, qdd), (u, _, _), _ = closed(name, 6, seed=8)
-    known = found.variables(u)
+    known = result.variables(u)
     u = np.stack([known[joint.name] for joint in written.free_joints], axis=1)
     assert np.abs(oracle.errors(u)[0]).max() < 1e-9
     tau = oracle.torques(u, qd, qdd)

@@ -34,8 +34,8 @@ def test_the_rank_is_that_of_the_torques_and_of_the_papers(name):
     model, base, _ = module(name)
     assert base.rank == seen(model)
     stated = KNOWN.get(name, (None, None, None))
-    found = (base.rank, len(base.columns), len(base.unidentifiable))
-    assert all(known in (None, own) for known, own in zip(stated, found, strict=True))
+    values = (base.rank, len(base.columns), len(base.unidentifiable))
+    assert all(known in (None, item) for known, item in zip(stated, values, strict=True))
 
 
 def variant(name, *changes):
@@ -135,4 +135,4 @@ def test_what_cancels_over_the_legs_is_not_written():
     terms = {p.name: {t.parameter: t.coefficient for t in p.terms} for p in base.parameters}
     assert terms["MPR"]["M2"] == 3
     assert "MXP" in terms and "MYP" in terms
-    assert all(value != 0 for found in terms.values() for value in found.values())
+    assert all(value != 0 for item in terms.values() for value in item.values())

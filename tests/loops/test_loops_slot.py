@@ -26,8 +26,8 @@ def test_the_torques_are_those_of_the_oracle(shaper):
     derivation, c = shaper
     rng = np.random.default_rng(11)
     q, qd, qdd = (x[:, None] for x in (rng.uniform(-3.1, 3.1, 200), *rng.normal(0, 3, (2, 200))))
-    oracle, found = Oracle(derivation.robot), Oracle(derivation.model.robot)
-    known = found.variables(c.close(q))
+    oracle, result = Oracle(derivation.robot), Oracle(derivation.model.robot)
+    known = result.variables(c.close(q))
     u = np.stack([known[joint.name] for joint in derivation.robot.free_joints], axis=1)
     assert np.abs(oracle.errors(u)[0]).max() < 1e-9
     assert np.all(known["5"] > -0.6 * np.sin(known["2"]))  # the ram right of the lever's end

@@ -39,10 +39,10 @@ def dense():
 def test_dense_pivoting_closes_the_same_postures(dense, reach):
     sparse = plain(NAME)
     q, qd, qdd = around_home(400, reach)
-    found = sparse.closing_status(q)
-    np.testing.assert_array_equal(dense.closing_status(q) == 0, found == 0)
-    assert reach < 0.3 or 0 < np.count_nonzero(found) < 400
-    q, qd, qdd = (x[found == 0] for x in (q, qd, qdd))
+    result = sparse.closing_status(q)
+    np.testing.assert_array_equal(dense.closing_status(q) == 0, result == 0)
+    assert reach < 0.3 or 0 < np.count_nonzero(result) < 400
+    q, qd, qdd = (x[result == 0] for x in (q, qd, qdd))
     np.testing.assert_allclose(sparse.close(q), dense.close(q), rtol=0, atol=1e-11)
     G = dense.coupling(q)
     tight = 1e-11 * np.abs(G).max(axis=(1, 2), keepdims=True) ** 2

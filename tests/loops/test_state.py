@@ -28,14 +28,14 @@ class Robot(NamedTuple):
 
     def call(self, role: str, *arguments: np.ndarray | int | None, out: tuple[int, ...] = ()):
         """(status, output) of `<prefix>_<role>`; at the state where the name ends so."""
-        given = [
+        known = [
             a if a is None or isinstance(a, int) else ctypes.c_void_p(a.ctypes.data)
             for a in arguments
         ]
         result = np.zeros(out)
-        given += [ctypes.c_void_p(result.ctypes.data)] if out else []
-        given = [self.memory, *given] if role.endswith("_at") else given
-        return getattr(self.library, f"{self.spec.prefix}_{role}")(*given), result
+        known += [ctypes.c_void_p(result.ctypes.data)] if out else []
+        known = [self.memory, *known] if role.endswith("_at") else known
+        return getattr(self.library, f"{self.spec.prefix}_{role}")(*known), result
 
     def state(self, q, qd, first=False, most=None):
         """Status of `<prefix>_state`, or with `most` of `<prefix>_state_with_bound`."""
@@ -186,12 +186,12 @@ def test_what_cannot_be_closed_is_told_and_the_last_posture_is_kept(robots):
         (q[0] + [np.nan, 0], qd[0], {3}),
         (q[0], qd[0] + [0, np.inf], {3}),
     ):
-        told = robot.state(bad_q, bad_qd)
-        assert told in expected
+        data = robot.state(bad_q, bad_qd)
+        assert data in expected
         status, tau = robot.call("gravity_at", beta, out=(n,))
-        assert status == told and np.isnan(tau).all()
+        assert status == data and np.isnan(tau).all()
         status, rate = robot.call("coupling_rate_at", out=(4, n))
-        assert status == told and np.isnan(rate).all()
+        assert status == data and np.isnan(rate).all()
         assert robot.state(q[1], qd[1]) == 0
         status, tau = robot.call("gravity_at", beta, out=(n,))
         assert status == 0 and np.isfinite(tau).all()

@@ -51,8 +51,8 @@ def diagnosed(case: Case, data: Path) -> Answer:
         if case.factor != 1.0:
             fitted = _at(fitted, case.factor)
     with _clock(seconds, "diagnosis"):
-        found = _found(fitted)
-    return Answer(case, found.to_json(), seconds, faults(found))
+        result = _found(fitted)
+    return Answer(case, result.to_json(), seconds, faults(result))
 
 
 def improved(case: Case, data: Path) -> Answer:
@@ -61,9 +61,9 @@ def improved(case: Case, data: Path) -> Answer:
     with _clock(seconds, "fit"):
         fitted = _fitted(case.set, case.direction, data)
     with _clock(seconds, "diagnosis"):
-        found = _found(fitted)
+        result = _found(fitted)
     with _clock(seconds, "add"):
-        findings = [*found.effects, *found.refinements]
+        findings = [*result.effects, *result.refinements]
         better, left_out = add_findings(fitted.model, fitted.chain.compiled, findings, fitted.logs)
     score = score_change(
         _unseen(fitted, fitted.model, fitted.chain.compiled),

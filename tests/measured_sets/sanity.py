@@ -114,8 +114,8 @@ def _coulomb(state: State, columns: Sequence[int]) -> dict[str, float]:
     """The level of Coulomb friction beside all effects named."""
     spec = state.data.compiled.spec
     dry = {p.name for p in spec.standard if p.effect == "coulomb"}
-    own = [i for i in columns if spec.base[i].column_of in dry]
-    return {spec.base[i].name: float(state.beta[i]) for i in own}
+    items = [i for i in columns if spec.base[i].column_of in dry]
+    return {spec.base[i].name: float(state.beta[i]) for i in items}
 
 
 def _friction(state: State, j: int) -> tuple[list[int], np.ndarray, np.ndarray]:
@@ -124,11 +124,11 @@ def _friction(state: State, j: int) -> tuple[list[int], np.ndarray, np.ndarray]:
     Without what turns gradually: after a reversal that gives back what it has stored.
     """
     base = state.data.compiled.spec.base
-    own = [i for i, b in enumerate(base) if b.kind == "friction" and b.rows == (j,)]
-    torque = state.rows.W[j][:, own] @ state.beta[own]
+    items = [i for i, b in enumerate(base) if b.kind == "friction" and b.rows == (j,)]
+    torque = state.rows.W[j][:, items] @ state.beta[items]
     for pick, columns, values in zip(state.picks, state.extra, state.values, strict=True):
         local = pick.effect.family == "friction" and pick.is_local and pick.index == j
         column = columns[j]
         if local and pick.form.internal_state is None and column is not None:
             torque = torque + column @ values
-    return own, torque, state.rows.filter_samples(j, [s.v[:, j] for s in state.rows.signals])
+    return items, torque, state.rows.filter_samples(j, [s.v[:, j] for s in state.rows.signals])

@@ -81,9 +81,9 @@ def _panda() -> str:
 def _dualarm7() -> str:
     """As the page of studies has it."""
     text = PAGE.read_text("utf-8")
-    found = re.search(r"^```toml\n# dualarm7\.toml\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
-    assert found is not None
-    return found[1]
+    result = re.search(r"^```toml\n# dualarm7\.toml\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    assert result is not None
+    return result[1]
 
 
 def _ur10e(*names: str) -> tuple[str, ...]:
@@ -112,5 +112,5 @@ _EVERY = (
     MeasuredSet("panda", _panda, ("excitation@:11.55",), ("excitation@11.55:",)),
     MeasuredSet("dualarm7", _dualarm7, ("excitation_13", "excitation_15"), ("excitation_52",)),
 )
-SETS = {own.name: own for own in _EVERY}
+SETS = {item.name: item for item in _EVERY}
 """By name of the folder."""

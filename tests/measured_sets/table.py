@@ -121,9 +121,9 @@ def _change(answer: Answer) -> list[str]:
 
 def _steps(answer: Answer) -> str:
     """What `add auto` kept and left out, as a list."""
-    kept = [_label(step) for step in answer.said.get("kept", ())]
+    rest = [_label(step) for step in answer.said.get("kept", ())]
     left = [f"  - left out: {text}" for text in answer.said.get("left_out", ())]
-    title = f"- {answer.case.set}, {answer.case.direction}: kept {', '.join(kept) or 'nothing'}"
+    title = f"- {answer.case.set}, {answer.case.direction}: kept {', '.join(rest) or 'nothing'}"
     return "\n".join([title, *left])
 
 

@@ -132,11 +132,11 @@ def test_cases_of_options():
 
 
 def test_every_set_has_a_robot_and_its_logs_may_change_places():
-    for name, own in SETS.items():
-        robot = parse_robot_text(own.robot(), name)
+    for name, item in SETS.items():
+        robot = parse_robot_text(item.robot(), name)
         assert {use.effect for use in robot.effects} >= {"viscous", "coulomb"}, name
-        training, held_out = own.logs(Path("d"), "forward")
-        assert own.logs(Path("d"), "exchanged") == (held_out, training)
+        training, held_out = item.logs(Path("d"), "forward")
+        assert item.logs(Path("d"), "exchanged") == (held_out, training)
     assert training == ["d/dualarm7/excitation_13.parquet", "d/dualarm7/excitation_15.parquet"]
 
 

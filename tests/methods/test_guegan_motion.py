@@ -49,5 +49,5 @@ def test_the_choice_finds_motions_that_excite_what_others_leave():
         every[[4, 17]].sum(axis=0) + every[:8].sum(axis=0) - every[4]
     )
     start = np.array([k for k in range(22) if k not in (4, 17)][: guegan.RUNS])
-    found = guegan._exchange_motions(every, start)
-    assert found < 1.5 * wanted < 0.01 * guegan._compute_condition_number(every[start].sum(axis=0))
+    result = guegan._exchange_motions(every, start)
+    assert result < 1.5 * wanted < 0.01 * guegan._compute_condition_number(every[start].sum(axis=0))

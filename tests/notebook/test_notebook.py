@@ -41,7 +41,7 @@ def cells(name: str) -> list[tuple[str, dict[str, str]]]:
     """The last line of each cell that shows something, and what it shows by kind."""
     if any(importlib.util.find_spec(package) is None for package in RUNS_WITH):
         pytest.skip(f"NOT CHECKED: without all of {', '.join(RUNS_WITH)} no notebook is run")
-    found = []
+    values = []
     path = TUTORIALS / f"{name}.ipynb"
     run = last_run if _place(path).is_file() else executed  # by this very program
     for cell in json.loads(run(path))["cells"]:
@@ -50,15 +50,15 @@ def cells(name: str) -> list[tuple[str, dict[str, str]]]:
             assert output.get("name") != "stderr", output["text"]
             line = "".join(cell["source"]).splitlines()[-1]
             data = output.get("data") or {"text/plain": output["text"]}
-            found.append((line, {kind: "".join(text) for kind, text in data.items()}))
-    return found
+            values.append((line, {kind: "".join(text) for kind, text in data.items()}))
+    return values
 
 
 @pytest.mark.parametrize("name", NOTEBOOKS)
 def test_the_notebooks_are_kept_without_outputs(name: str) -> None:
-    kept = json.loads((TUTORIALS / f"{name}.ipynb").read_text(encoding="utf-8"))
-    assert kept["nbformat"] == 4
-    for cell in kept["cells"]:
+    data = json.loads((TUTORIALS / f"{name}.ipynb").read_text(encoding="utf-8"))
+    assert data["nbformat"] == 4
+    for cell in data["cells"]:
         if cell["cell_type"] == "code":
             assert cell["outputs"] == [] and cell["execution_count"] is None
 

@@ -37,9 +37,9 @@ EACH = [*ALWAYS, *rotating(*NAMES)]
 
 @pytest.mark.slow
 def test_every_object_that_is_reached_prints_one_short_line() -> None:
-    found = list(reached(session()))
-    assert len({type(thing) for _, thing in found}) > 80  # it went deep
-    for way, thing in found:
+    values = list(reached(session()))
+    assert len({type(thing) for _, thing in values}) > 80  # it went deep
+    for way, thing in values:
         line = repr(thing)
         assert len(line) <= 200 and "\n" not in line, f"{way}: make it a Brief: {line[:99]}"
 
@@ -211,9 +211,9 @@ def test_what_is_shown_later_is_loaded_under_its_name(monkeypatch: pytest.Monkey
     """A name that no class has would never be looked up."""
     later: dict[str, Callable[[], None]] = {}
     monkeypatch.setattr(presented_module, "_LATER", later)
-    monkeypatch.setattr(presented_module, "_PRESENTATIONS", found := {})
+    monkeypatch.setattr(presented_module, "_PRESENTATIONS", table := {})
     notebook.register_report_modules()
-    assert later and not found
+    assert later and not table
     for say in {*later.values()}:
         say()
-    assert {kind.__name__ for kind in found} == later.keys()
+    assert {kind.__name__ for kind in table} == later.keys()

@@ -26,18 +26,18 @@ def rows(title: str) -> list[list[str]]:
 
 
 def test_every_function_stands_there() -> None:
-    told = set(re.findall(r"`(\w+)\(", part("Functions")))
+    lines = set(re.findall(r"`(\w+)\(", part("Functions")))
     offered = {name: getattr(api, name) for name in api.__all__ if name not in ("Mapped", "AnyLog")}
-    assert told == {n for n, x in offered.items() if callable(x) and not isinstance(x, type)}
+    assert lines == {n for n, x in offered.items() if callable(x) and not isinstance(x, type)}
 
 
 @pytest.mark.rotating("results of the session")
 def test_every_table_and_figure_stands_there() -> None:
     made = session()
     cells = {name: further for name, *further in rows("What results show")}
-    told = {name: [set(c.split(", ")) - {""} for c in further] for name, further in cells.items()}
-    assert told.pop("look")[0] == {"channels"}
-    for name, (tables, figures) in told.items():
+    data = {name: [set(c.split(", ")) - {""} for c in further] for name, further in cells.items()}
+    assert data.pop("look")[0] == {"channels"}
+    for name, (tables, figures) in data.items():
         shown = find_presentation(type(made[name]))
         assert shown is not None
         there = set(shown.tables(made[name]))
@@ -48,4 +48,4 @@ def test_every_table_and_figure_stands_there() -> None:
         }
         assert drawn <= figures and figures - drawn <= {"waterfall"}, name
     with_tables = {n for n in made if (p := find_presentation(type(made[n]))) and p.tables(made[n])}
-    assert with_tables <= {*told, "better", "better comparison", "report"}
+    assert with_tables <= {*data, "better", "better comparison", "report"}

@@ -55,12 +55,12 @@ def followed(oracle, home, targets, steps):
         (n, f) postures, NaN where the way ended; (n,) the smallest singular value of the solved
         columns on the way.
     """
-    n, given = len(targets), oracle.given
+    n, inputs = len(targets), oracle.given
     start = np.broadcast_to(home, (n, len(oracle.scale)))
     u, nearest, going = start.copy(), np.full(n, np.inf), np.arange(n)
     J = scaled_slopes(oracle, u)
     for k in range(1, steps + 1):
-        q = start[:, given] + (targets - start[:, given]) * (k / steps)
+        q = start[:, inputs] + (targets - start[:, inputs]) * (k / steps)
         v, J_after, good, singular = _step(oracle, u[going], q[going], J)
         nearest[going] = np.minimum(nearest[going], singular)
         u[going] = v
@@ -73,13 +73,13 @@ def followed(oracle, home, targets, steps):
 
 def _step(oracle: Oracle, u: np.ndarray, q: np.ndarray, J: np.ndarray) -> tuple:
     """One step to q: postures, all slopes there, who arrived, least singular values."""
-    given, solved = oracle.given, oracle.solved
+    inputs, solved = oracle.given, oracle.solved
     v, scale = u.copy(), oracle.scale[solved]
-    change = (q - u[:, given]) / oracle.scale[given]
+    change = (q - u[:, inputs]) / oracle.scale[inputs]
     back = np.linalg.pinv(J[:, :, solved])
-    along = -np.einsum("nij,njk,nk->ni", back, J[:, :, given], change)
+    along = -np.einsum("nij,njk,nk->ni", back, J[:, :, inputs], change)
     v[:, solved] += along * scale
-    v[:, given] = q
+    v[:, inputs] = q
     predicted = v.copy()
     inverse = np.linalg.pinv(scaled_slopes(oracle, v)[:, :, solved])
     for _ in range(NEWTON):

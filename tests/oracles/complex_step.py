@@ -104,9 +104,9 @@ class Oracle:
         u = np.atleast_2d(u)
         m, f = u.shape
         none = np.zeros((m, 3, f), u.dtype)
-        found = {"0": (np.tile(np.eye(3, dtype=u.dtype), (m, 1, 1)), none[:, :, 0], none, none)}
+        table = {"0": (np.tile(np.eye(3, dtype=u.dtype), (m, 1, 1)), none[:, :, 0], none, none)}
         for row in self.robot.joints:
-            R, p, Jv, Jw = found[row.antecedent]
+            R, p, Jv, Jw = table[row.antecedent]
             A, theta, r = self.rows[row.name]
             constant, slopes = self.follow.get(row.name, (0.0, np.zeros(f)))
             y = constant + u @ slopes
@@ -114,27 +114,27 @@ class Oracle:
             way = R @ A[:3, 3] + z * (r[0] + r[1] * y)[:, None]
             turn = _rotations(theta[0] + theta[1] * y)
             by = z[:, :, None] * slopes
-            found[row.name] = (
+            table[row.name] = (
                 R @ A[:3, :3] @ turn,
                 p + way,
                 Jv + np.cross(Jw, way[:, :, None], axis=1) + by * r[1],
                 Jw + by * theta[1],
             )
-        return found
+        return table
 
     def motion(self, u: np.ndarray, ud: np.ndarray, udd: np.ndarray) -> dict[str, tuple]:
         """{row: (w, v, dw, a)}: angular and linear speed and acceleration, in frame 0."""
         frames = self.frames(u)
         none = np.zeros((len(np.atleast_2d(u)), 3))
-        found = {"0": (none,) * 4}
+        result = {"0": (none,) * 4}
         for row in self.robot.joints:
-            w, v, dw, a = found[row.antecedent]
+            w, v, dw, a = result[row.antecedent]
             _, theta, r = self.rows[row.name]
             slopes = self.follow[row.name][1] if row.is_moving else np.zeros(u.shape[-1])
             z = frames[row.name][0][:, :, 2]
             way = frames[row.name][1] - frames[row.antecedent][1]
             rate, gain = (z * np.atleast_1d(x @ slopes)[:, None] for x in (ud, udd))
-            found[row.name] = (
+            result[row.name] = (
                 w + theta[1] * rate,
                 v + np.cross(w, way) + r[1] * rate,
                 dw + theta[1] * (gain + np.cross(w, rate)),
@@ -144,43 +144,43 @@ class Oracle:
                 + 2 * r[1] * np.cross(w, rate)
                 + r[1] * gain,
             )
-        return found
+        return result
 
     # Loops.
 
     def errors(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(m, e) what is open, and its slopes by the free variables (m, e, f)."""
-        frames, found, slopes = self.frames(u), [], []
+        frames, items, slopes = self.frames(u), [], []
         for loop in self.robot.loops:
             (A, a, Av, Aw), (B, b, Bv, Bw) = frames[loop.frame], frames[loop.meets]
             way, Jway = (b - a) / self.size, (Bv - Av) / self.size
             z, Jz = A[:, :, 2], _turning(Aw, A[:, :, 2])
             other, Jother = B[:, :, 2], _turning(Bw, B[:, :, 2])
             if loop.kind in ("cylindrical", "prismatic"):
-                found.append(np.cross(way, z))
+                items.append(np.cross(way, z))
                 slopes.append(
                     np.cross(Jway, z[:, :, None], axis=1) + np.cross(way[:, :, None], Jz, axis=1)
                 )
             elif loop.kind == "planar":
-                found.append(_dot(way, z))
+                items.append(_dot(way, z))
                 slopes.append(_across(way, Jz) + _across(z, Jway))
             else:
-                found.append(way)
+                items.append(way)
                 slopes.append(Jway)
             if loop.kind in ("revolute", "cylindrical", "planar", "prismatic", "rigid"):
-                found.append(z - other)
+                items.append(z - other)
                 slopes.append(Jz - Jother)
             if loop.kind in ("prismatic", "rigid"):
-                found.append(A[:, :, 0] - B[:, :, 0])
+                items.append(A[:, :, 0] - B[:, :, 0])
                 slopes.append(_turning(Aw, A[:, :, 0]) - _turning(Bw, B[:, :, 0]))
             if loop.kind == "universal":
-                found.append(_dot(z, other))
+                items.append(_dot(z, other))
                 slopes.append(_across(z, Jother) + _across(other, Jz))
-        return np.concatenate(found, axis=1), np.concatenate(slopes, axis=1)
+        return np.concatenate(items, axis=1), np.concatenate(slopes, axis=1)
 
     def drift(self, u: np.ndarray, ud: np.ndarray) -> np.ndarray:
         """(m, e): second derivatives of the errors by time where udd is 0."""
-        frames, motion, found = self.frames(u), self.motion(u, ud, np.zeros_like(ud)), []
+        frames, motion, actual = self.frames(u), self.motion(u, ud, np.zeros_like(ud)), []
 
         def direction(row: str, axis: int) -> tuple:
             w, _, dw, _ = motion[row]
@@ -198,18 +198,18 @@ class Oracle:
             ]
             z, other = direction(loop.frame, 2), direction(loop.meets, 2)
             if loop.kind in ("cylindrical", "prismatic"):
-                found.append(_second(np.cross, way, z))
+                actual.append(_second(np.cross, way, z))
             elif loop.kind == "planar":
-                found.append(_second(_dot, way, z))
+                actual.append(_second(_dot, way, z))
             else:
-                found.append(way[2])
+                actual.append(way[2])
             if loop.kind in ("revolute", "cylindrical", "planar", "prismatic", "rigid"):
-                found.append(z[2] - other[2])
+                actual.append(z[2] - other[2])
             if loop.kind in ("prismatic", "rigid"):
-                found.append(direction(loop.frame, 0)[2] - direction(loop.meets, 0)[2])
+                actual.append(direction(loop.frame, 0)[2] - direction(loop.meets, 0)[2])
             if loop.kind == "universal":
-                found.append(_second(_dot, z, other))
-        return np.concatenate(found, axis=1)
+                actual.append(_second(_dot, z, other))
+        return np.concatenate(actual, axis=1)
 
     def _solve(self, slopes: np.ndarray, right: np.ndarray) -> np.ndarray:
         """The solved variables x of slopes x = right, by normal equations: analytic in both."""
@@ -272,11 +272,11 @@ class Oracle:
 
     def _motors(self) -> list[tuple[np.ndarray, dict[str, float]]]:
         """(slopes by u, parameters) of everything that turns with friction or a rotor."""
-        found = []
+        item = []
         for row in self.robot.moving_joints:
-            own = {x: self.value(f"{x}{row.name}") for x in ("Ia", "Fv", "Fs", "Off", "Fva")}
-            own |= {"Fst": self.value(f"Fst{row.name}")}
-            own["shape"] = next(
+            local = {x: self.value(f"{x}{row.name}") for x in ("Ia", "Fv", "Fs", "Off", "Fva")}
+            local |= {"Fst": self.value(f"Fst{row.name}")}
+            local["shape"] = next(
                 (
                     i.nonlinear_parameters
                     for e, _, i in self.robot.find_joint_effects(row.name)
@@ -284,12 +284,12 @@ class Oracle:
                 ),
                 {},
             )
-            found.append((self.follow[row.name][1], own))
+            item.append((self.follow[row.name][1], local))
         for row, sum_ in self.robot.coupling.items():
             slopes = sum(k * self.follow[joint][1] for joint, k in sum_.items())
-            own = {"Ia": "Iam", "Fv": "Fvm", "Fs": "Fsm"}
-            found.append((slopes, {x: self.value(f"{y}{row}") for x, y in own.items()}))
-        return found
+            local = {"Ia": "Iam", "Fv": "Fvm", "Fs": "Fsm"}
+            item.append((slopes, {x: self.value(f"{y}{row}") for x, y in local.items()}))
+        return item
 
     def _inertia_u(self, u: np.ndarray) -> np.ndarray:
         frames = self.frames(u)
@@ -301,8 +301,8 @@ class Oracle:
             mixed = Jv.transpose(0, 2, 1) @ _turning(Jw, s)
             total = total + m * Jv.transpose(0, 2, 1) @ Jv + mixed + mixed.transpose(0, 2, 1)
             total = total + Jw.transpose(0, 2, 1) @ (R @ I @ R.transpose(0, 2, 1)) @ Jw
-        for slopes, own in self._motors():
-            total = total + own["Ia"] * np.outer(slopes, slopes)
+        for slopes, entry in self._motors():
+            total = total + entry["Ia"] * np.outer(slopes, slopes)
         return total
 
     def M(self, u: np.ndarray) -> np.ndarray:
@@ -337,14 +337,14 @@ class Oracle:
         G = self.G(u)
         ud = _apply(G, v)
         total = 0.0 * ud + self._constant()
-        for slopes, own in self._motors():
+        for slopes, inner in self._motors():
             y = (ud @ slopes)[:, None]
             sign = np.tanh(y / self.width) if self.width else np.sign(y.real)
-            f = own["Fv"] * y + own["Fs"] * sign + own.get("Off", 0.0)
-            f = f + own.get("Fva", 0.0) * y * sign
-            if own.get("shape"):
-                vs, d = (own["shape"][k] for k in ("vs", "d"))
-                f = f + own["Fst"] * np.exp(-((y * sign / vs) ** d)) * sign
+            f = inner["Fv"] * y + inner["Fs"] * sign + inner.get("Off", 0.0)
+            f = f + inner.get("Fva", 0.0) * y * sign
+            if inner.get("shape"):
+                vs, d = (inner["shape"][k] for k in ("vs", "d"))
+                f = f + inner["Fst"] * np.exp(-((y * sign / vs) ** d)) * sign
             total = total + f * slopes
         return np.einsum("mfn,mf->mn", G, total)
 
@@ -358,8 +358,8 @@ class Oracle:
         for row in self.robot.moving_joints:
             ten = np.array([self.value(f"{x}{row.name}") for x in INERTIAL])
             total = total + _powers(frames[row.name], motion[row.name], self.gravity) @ ten
-        for slopes, own in self._motors():
-            total = total + own["Ia"] * np.outer(udd @ slopes, slopes)
+        for slopes, specific in self._motors():
+            total = total + specific["Ia"] * np.outer(udd @ slopes, slopes)
         return np.einsum("mfn,mf->mn", G, total) + self.friction(u, qd)
 
     def regressor(self, u: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> dict[str, np.ndarray]:
@@ -368,12 +368,12 @@ class Oracle:
         G = self.G(u)
         frames = self.frames(u)
         motion = self.motion(u, _apply(G, qd), self.accelerations(u, qd, qdd))
-        found = {}
+        answer = {}
         for row in self.robot.moving_joints:
             powers = _powers(frames[row.name], motion[row.name], self.gravity)
             torques = np.einsum("mfn,mfk->kmn", G, powers)
-            found |= {f"{x}{row.name}": t for x, t in zip(INERTIAL, torques, strict=True)}
-        return found
+            answer |= {f"{x}{row.name}": t for x, t in zip(INERTIAL, torques, strict=True)}
+        return answer
 
     # What a controller calls, at one posture.
 
@@ -515,9 +515,9 @@ def _powers(frame: tuple, motion: tuple, gravity: np.ndarray) -> np.ndarray:
 
 def _skew(v: np.ndarray) -> np.ndarray:
     """(m, 3, 3): v x."""
-    found = np.zeros((len(v), 3, 3), v.dtype)
-    found[:, 0, 1], found[:, 0, 2], found[:, 1, 2] = -v[:, 2], v[:, 1], -v[:, 0]
-    return found - found.transpose(0, 2, 1)
+    result = np.zeros((len(v), 3, 3), v.dtype)
+    result[:, 0, 1], result[:, 0, 2], result[:, 1, 2] = -v[:, 2], v[:, 1], -v[:, 0]
+    return result - result.transpose(0, 2, 1)
 
 
 def _inertia_columns(w: np.ndarray) -> np.ndarray:

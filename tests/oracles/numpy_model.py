@@ -89,8 +89,8 @@ class NumpyModel:
         length = np.linalg.norm(W, axis=0)
         W = W / np.where(length > 1e-9, length, np.inf)
         R = np.linalg.qr(W, mode="r")
-        kept = [k for k in range(len(names)) if abs(R[k, k]) > 1e-9]
-        self.kept = kept
+        rest = [k for k in range(len(names)) if abs(R[k, k]) > 1e-9]
+        self.kept = rest
         unit = ["N m" if r.sigma == 0 else "N" for r in self.rows]
         standard = tuple(
             ParameterSpec(name, "SI", kind, effect, str(j + 1), None)
@@ -115,7 +115,7 @@ class NumpyModel:
             ),
             standard=standard,
             base=tuple(
-                BaseSpec(names[k], names[k], "SI", kinds[k][0], tuple(range(n)), ()) for k in kept
+                BaseSpec(names[k], names[k], "SI", kinds[k][0], tuple(range(n)), ()) for k in rest
             ),
             unidentifiable=(),
             functions=(),
@@ -138,8 +138,8 @@ class NumpyModel:
         for name, torque in self._oracle.regressor(q, qd, qdd).items():
             out[:, :, column[name]] = torque
         for j in range(q.shape[1]):
-            own = {"Ia": qdd[:, j], "Fv": qd[:, j], "Fs": np.sign(qd[:, j]), "Off": 1.0}
-            for prefix, values in own.items():
+            local = {"Ia": qdd[:, j], "Fv": qd[:, j], "Fs": np.sign(qd[:, j]), "Off": 1.0}
+            for prefix, values in local.items():
                 if f"{prefix}{j + 1}" in column:
                     out[:, j, column[f"{prefix}{j + 1}"]] = values
         for j, E in self.coupling.items():

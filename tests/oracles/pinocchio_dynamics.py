@@ -54,11 +54,11 @@ def depth_first(robot: Robot) -> list[Joint]:
     carried: dict[str, list[Joint]] = {}
     for joint in robot.joints:
         carried.setdefault(joint.antecedent, []).append(joint)
-    found, waiting = [], carried["0"][::-1]
+    values, waiting = [], carried["0"][::-1]
     while waiting:
-        found.append(waiting.pop())
-        waiting += carried.get(found[-1].name, [])[::-1]
-    return found
+        values.append(waiting.pop())
+        waiting += carried.get(values[-1].name, [])[::-1]
+    return values
 
 
 def places_of(robot: Robot, chi: Mapping[str, float] = NOTHING):
@@ -72,15 +72,15 @@ def pinocchio_regressor(robot: Robot, q, qd, qdd) -> np.ndarray:
     model, ids = pinocchio_model(robot)
     data = model.createData()
     rows = [model.idx_vs[i] for i in ids]
-    found = np.zeros((*q.shape, 10 * len(ids)))
+    actual = np.zeros((*q.shape, 10 * len(ids)))
     for sample in range(len(q)):
         x, v, a = (np.zeros(model.nv) for _ in range(3))
         x[rows], v[rows], a[rows] = q[sample], qd[sample], qdd[sample]
         Y = pin.computeJointTorqueRegressor(model, data, x, v, a)
         for link, index in enumerate(ids):
             block = np.atleast_2d(Y)[rows][:, 10 * (index - 1) : 10 * index]
-            found[sample][:, 10 * link : 10 * link + 10] = block[:, _OURS]
-    return found
+            actual[sample][:, 10 * link : 10 * link + 10] = block[:, _OURS]
+    return actual
 
 
 @dataclass
@@ -174,7 +174,7 @@ class PinocchioDynamics:
             push = np.zeros(model.nv)
             push[self.rows] = tau
             qdd = pin.aba(model, data, x, speeds, push)[self.rows]
-        found = {
+        table = {
             "tau": tau + friction,
             "forward_dynamics": qdd,
             "forward_derivatives": np.array([-inverse @ by_q, -inverse @ by_qd, inverse]),
@@ -194,13 +194,13 @@ class PinocchioDynamics:
         for name, frame in self.frames.items():
             J = pin.getFrameJacobian(model, data, frame, world).reshape(6, -1)[:, self.rows]
             a = pin.getFrameClassicalAcceleration(model, data, frame, world).vector
-            found |= {
+            table |= {
                 f"pose {name}": data.oMf[frame].homogeneous[:3],
                 f"jacobian {name}": J @ self.F,
                 f"jacobian_dot_qd {name}": a,
                 f"twist {name}": pin.getFrameVelocity(model, data, frame).vector,
             }
-        return found
+        return table
 
     @staticmethod
     def operational(M: np.ndarray, J: np.ndarray, damping: float) -> dict[str, np.ndarray]:

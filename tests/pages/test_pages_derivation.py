@@ -51,8 +51,8 @@ def shown(formula: Formula) -> str:
 
 def value(text: str) -> sympy.Expr:
     names = {name: sympy.Symbol(name) for name in re.findall(r"[A-Za-z]\w*", text)}
-    for own in ("sin", "cos", "sqrt", "pi"):
-        names.pop(own, None)
+    for items in ("sin", "cos", "sqrt", "pi"):
+        names.pop(items, None)
     return sympy.sympify(text, locals=names)
 
 

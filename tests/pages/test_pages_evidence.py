@@ -114,10 +114,10 @@ def test_the_picture_convinces(case: Case, effect: str) -> None:
 def test_a_spring_is_as_sure_as_its_coefficient() -> None:
     """Its law is k (q - q0): far out its band grows as the deviation of k does."""
     diagnosis = diagnosis_of(demonstration(1000.0, seconds=(30.0, 20.0)), spring)
-    own = collect_evidence(diagnosis.search, diagnosis.search.steps[0])
+    item = collect_evidence(diagnosis.search, diagnosis.search.steps[0])
     finding = next(f for f in diagnosis.effects if f.effect == "spring")
-    widest = int(np.argmax(np.abs(own.bins.centre)))
-    ratio = own.effect_torque_sigma[widest] / abs(own.bins.centre[widest])
+    widest = int(np.argmax(np.abs(item.bins.centre)))
+    ratio = item.effect_torque_sigma[widest] / abs(item.bins.centre[widest])
     assert 0.3 < ratio / next(iter(finding.sigmas.values())) < 3.0
 
 
@@ -129,8 +129,8 @@ def item(case: Case) -> Evidence:
 
 def test_figures_stand_by_the_picture(case: Case, item: Evidence, tmp_path: Path) -> None:
     text = describe_residuals(item)
-    before, after, rival = (float(size) for size in re.findall(r"([\d.]+) N m \(", text))
-    assert after < 0.3 * before and after < 1.2 * rival < before
+    before, after, other = (float(size) for size in re.findall(r"([\d.]+) N m \(", text))
+    assert after < 0.3 * before and after < 1.2 * other < before
     assert after == pytest.approx(float(np.sqrt(np.mean(item.after**2))), rel=0.2)
     page = write_page(tmp_path / "page.html", build_diagnosis_page(diagnosis_of(case, stribeck)))
     assert text in html.unescape(page.read_text())
@@ -176,9 +176,9 @@ def test_bins_hold_several_blocks_and_one_sign() -> None:
     block = (time / 0.5).astype(int)
     bins = build_bins(time, np.ones(4000), block, np.ones(4000, dtype=bool))
     for k in range(bins.count):
-        own = bins.place == k
-        assert np.unique(block[own]).size >= 4
-        assert len(set(np.sign(time[own]))) == 1
+        mask = bins.place == k
+        assert np.unique(block[mask]).size >= 4
+        assert len(set(np.sign(time[mask]))) == 1
 
 
 def test_what_returns_everywhere_is_not_wild() -> None:
@@ -228,7 +228,7 @@ def test_no_other_half_second_is_worse(item: Evidence) -> None:
 
 def test_rivals_are_of_the_same_joint(item: Evidence) -> None:
     step = item.step
-    assert {rival.candidate.joint for rival in evidence.select_alternatives(step)} == {
+    assert {alternative.candidate.joint for alternative in evidence.select_alternatives(step)} == {
         step.candidate.joint
     }
     other = next(
@@ -236,11 +236,11 @@ def test_rivals_are_of_the_same_joint(item: Evidence) -> None:
     )  # the search has some, the page does not
     assert other is not None
     rows = evidence.tabulate_alternatives(step).rows
-    own = [
+    items = [
         step.candidate.effect.id,
         *(r.candidate.effect.id for r in evidence.select_alternatives(step)[:7]),
     ]
-    assert [row[0] for row in rows] == own
+    assert [row[0] for row in rows] == items
 
 
 @pytest.mark.parametrize("hold", [1, 10])
@@ -250,15 +250,15 @@ def test_a_law_is_as_sure_as_repetition_shows(hold: int) -> None:
     W = [random.normal(size=(600, 4)) + np.array([0.0, 0.0, 1.0, 0.0]) for _ in range(2)]
     W = [w.cumsum(axis=0) / np.sqrt(np.arange(1, 601))[:, None] for w in W]
     block, truth = np.repeat(np.arange(30), 20), np.array([1.0, -2.0, 0.5, 3.0])
-    found, said = [], []
+    values, said = [], []
     for _ in range(80):
         noise = [np.repeat(random.normal(size=600 // hold), hold) for _ in W]
         y = [w @ truth + e for w, e in zip(W, noise, strict=True)]
         base = build_gram_blocks(W, y, np.ones(2), [block, block], np.arange(30) % 8)
         theta = np.linalg.lstsq(np.vstack(W), np.concatenate(y), rcond=None)[0]
-        found.append(theta)
+        values.append(theta)
         said.append(np.diag(compute_covariance(base)))
-    spread = np.std(found, axis=0)
+    spread = np.std(values, axis=0)
     np.testing.assert_allclose(np.sqrt(np.mean(said, axis=0)), spread, rtol=0.25)
 
 

@@ -56,8 +56,8 @@ def test_two_models_are_told_apart_where_one_has_the_spring(folder: Path) -> Non
     assert result["relative_error"] == first["relative_error"]  # the contract's fields: model one
     assert (first["model"], second["model"]) == ("a.json", "b.json")
     assert "3" in second["best_joints"] and first["best_joints"] == []
-    for joint, own in result["joints"].items():
-        assert own["relative_error"] == pytest.approx(first["joints"][joint]["relative_error"])
+    for joint, item in result["joints"].items():
+        assert item["relative_error"] == pytest.approx(first["joints"][joint]["relative_error"])
     text = words_of(folder / "c.html")
     assert "b.json predicts joint" in text and "2 models side by side" in text
 
@@ -102,9 +102,9 @@ def test_newtons_and_newton_metres_are_told_apart(scara: Path, capsys) -> None:
     assert set(compared["by_unit"]) == {"N m", "N"} and "pools" in compared["relative_error_pools"]
     assert set(fitted["by_unit"]) == {"N m", "N"}
     for unit, error in fitted["by_unit"].items():
-        own = [j for j in fitted["joints"].values() if j["unit"] == unit]
-        left = sum(j["rows"] * j["rms"] ** 2 for j in own)
-        size = sum(j["rows"] * (j["rms"] / j["relative_error"]) ** 2 for j in own)
+        items = [j for j in fitted["joints"].values() if j["unit"] == unit]
+        left = sum(j["rows"] * j["rms"] ** 2 for j in items)
+        size = sum(j["rows"] * (j["rms"] / j["relative_error"]) ** 2 for j in items)
         assert error == pytest.approx(np.sqrt(left / size))
     head = re.search(r'class="headline">(.*?)</p>', (scara / "c.html").read_text(), re.DOTALL)
     assert head is not None and "of the torque and" in head[1] and "of the force" in head[1]
@@ -146,8 +146,8 @@ def test_tangled_parameters_are_those_of_the_covariance(after) -> None:
         names = [p.name for p in after.fit.parameters]
         i, j = names.index(one), names.index(other)
         covariance = after.covariance
-        own = covariance[i, j] / np.sqrt(covariance[i, i] * covariance[j, j])
-        assert value == pytest.approx(own) and abs(own) > 0.95
+        actual = covariance[i, j] / np.sqrt(covariance[i, i] * covariance[j, j])
+        assert value == pytest.approx(actual) and abs(actual) > 0.95
 
 
 def test_the_page_of_additions_has_every_joint_and_value(folder, after, tmp_path) -> None:
@@ -181,15 +181,17 @@ def test_a_joint_that_got_worse_has_another_colour(after) -> None:
     joints = {"1": (0.02, 0.03), "2": (0.03, 0.02), "3": (0.02, 0.0201)}
     step = dataclasses.replace(last, joints=joints, changed_joints=("1", "2"))
     picture = history.draw_joints_picture((first, step), dict.fromkeys("123", "N m"))
-    found = {
-        panel.title: {own.label: own.style for own in panel.series if np.isfinite(own.values[-1])}
+    table = {
+        panel.title: {
+            item.label: item.style for item in panel.series if np.isfinite(item.values[-1])
+        }
         for row in picture.panels
         for panel in row
     }
-    assert found == {
+    assert table == {
         "Joint 1": {"clearly higher": history.WORSE},
         "Joint 2": {"clearly lower": history.BETTER},
         "Joint 3": {"no clear change": history.SAME},
     }
-    assert len({own.color for own in (history.SAME, history.BETTER, history.WORSE)}) == 3
+    assert len({result.color for result in (history.SAME, history.BETTER, history.WORSE)}) == 3
     assert_all_named(picture)

@@ -50,20 +50,22 @@ def bands(folder, name):
 
 
 def test_the_json_tells_cut_offs_and_noise(noisy):
-    found = bands(noisy, "fit")
-    assert found["widest_cutoffs"]["parallel_cutoff"] > found["parallel_cutoff"]
-    assert found["position_cutoff"] >= 2.0 * found["parallel_cutoff"]
-    assert found["limiting_joint"] in ("1", "2") and len(found["reasons"]) >= 2
-    assert [own["joint"] for own in found["noise"]] == ["1", "2"]
-    for own in found["noise"]:
-        assert (own["unit"], own["quantity"], own["is_moving"]) == ("rad", "positions", True)
-        assert own["density"] == pytest.approx(2.0 * SIZE**2 / RATE, rel=0.4)
-        assert own["deviation"] == pytest.approx(SIZE, rel=0.2)
-        assert own["band_hz"] < own["noise_crossover_hz"] < 30.0
-        assert len(own["frequency"]) == len(own["spectrum"]) > 10
+    result = bands(noisy, "fit")
+    assert result["widest_cutoffs"]["parallel_cutoff"] > result["parallel_cutoff"]
+    assert result["position_cutoff"] >= 2.0 * result["parallel_cutoff"]
+    assert result["limiting_joint"] in ("1", "2") and len(result["reasons"]) >= 2
+    assert [entry["joint"] for entry in result["noise"]] == ["1", "2"]
+    for item in result["noise"]:
+        assert (item["unit"], item["quantity"], item["is_moving"]) == ("rad", "positions", True)
+        assert item["density"] == pytest.approx(2.0 * SIZE**2 / RATE, rel=0.4)
+        assert item["deviation"] == pytest.approx(SIZE, rel=0.2)
+        assert item["band_hz"] < item["noise_crossover_hz"] < 30.0
+        assert len(item["frequency"]) == len(item["spectrum"]) > 10
     # no joint's noise makes more torque at the parallel filter than is left of it
-    crossings = [(own["torque_noise"] / own["noise_torque"]) ** 0.25 for own in found["noise"]]
-    assert found["parallel_cutoff"] <= 1.1 * min(crossings)
+    crossings = [
+        (local["torque_noise"] / local["noise_torque"]) ** 0.25 for local in result["noise"]
+    ]
+    assert result["parallel_cutoff"] <= 1.1 * min(crossings)
 
 
 def test_a_log_tells_the_same_with_its_robot_and_the_noise_without(noisy):
@@ -71,7 +73,7 @@ def test_a_log_tells_the_same_with_its_robot_and_the_noise_without(noisy):
     alone = bands(noisy, "log")
     assert alone["parallel_cutoff"] is None and alone["reasons"] == []
     densities = [
-        [own["density"] for own in found["noise"]] for found in (alone, bands(noisy, "fit"))
+        [item["density"] for item in values["noise"]] for values in (alone, bands(noisy, "fit"))
     ]
     assert densities[0] == pytest.approx(densities[1], rel=1e-3)
 
@@ -88,11 +90,11 @@ def test_the_picture_crosses_where_the_numbers_say(noisy):
     model = load_model(noisy / "model.json")
     picture = draw_noise_picture(model.fit.bands)
     assert [len(row) for row in picture.panels] == [2, 2]
-    for row, own in zip(picture.panels, model.fit.bands.noise, strict=True):
+    for row, item in zip(picture.panels, model.fit.bands.noise, strict=True):
         curves = {s.label: s for s in row[1].series if isinstance(s, Curve)}
         noise, torque = curves["torque of that noise"], curves["noise of the torque"].y[0]
         cross = np.exp(np.interp(np.log(torque), np.log(noise.y), np.log(noise.x)))
-        assert cross == pytest.approx((own.torque_noise / own.noise_torque) ** 0.25, rel=1e-6)
+        assert cross == pytest.approx((item.torque_noise / item.noise_torque) ** 0.25, rel=1e-6)
         assert curves["parallel filter"].x[0] == model.fit.bands.parallel_cutoff
     limits = [row[1].title for row in picture.panels if "limits" in row[1].title]
     assert limits == [f"Joint {model.fit.bands.limiting_joint}: torques, which limits"]
@@ -113,9 +115,9 @@ def looked_at(tmp_path, columns, words=()):
 def test_units_that_are_stated_are_taken(tmp_path, factor, unit):
     columns = {"t": TIME, "x": (SWING + WHITE) / unit}
     seen = looked_at(tmp_path, columns, ["time=t", f"q1=x{':' * bool(factor)}{factor}"])
-    found = estimate_position_noise(seen.positions).joints[0]
-    assert found.unit == ("m" if factor == "mm" else "rad")
-    assert found.deviation == pytest.approx(1e-3, rel=0.25)
+    result = estimate_position_noise(seen.positions).joints[0]
+    assert result.unit == ("m" if factor == "mm" else "rad")
+    assert result.deviation == pytest.approx(1e-3, rel=0.25)
 
 
 def test_counts_of_an_encoder_stay_counts(tmp_path):
@@ -140,4 +142,6 @@ def test_where_nothing_can_be_told_nothing_is_drawn(tmp_path, columns):
     noise = estimate_position_noise(seen.positions)
     assert noise is None or [line.endswith("rests") for line in noise.format_channels()] == [True]
     assert not any(picture.name == "noise_of_the_motion" for picture in draw_log_pictures(seen))
-    assert "Noise of the motion" not in [own.title for own in build_log_page(seen, [], []).sections]
+    assert "Noise of the motion" not in [
+        item.title for item in build_log_page(seen, [], []).sections
+    ]

@@ -30,5 +30,5 @@ def _robot(paper: str, robot: str) -> DerivedRobot:
     variant = read_paper(paper).variants.get(robot)
     if variant is not None:
         return derive_robot(robot, variant)
-    found = module(robot)
-    return DerivedRobot(read_robot(robot), found.model, found.base)
+    result = module(robot)
+    return DerivedRobot(read_robot(robot), result.model, result.base)

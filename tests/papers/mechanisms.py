@@ -65,12 +65,12 @@ def orthoglide_leg(at, end, leg, sign=-1.0):
 
 
 def rows_2012(first, q2, q3, leg):
-    found = {f"1{leg}": first}
-    found[f"2{leg}"] = first.then(0, 0, -np.pi / 2, 0, q2, 0)
-    found[f"3{leg}"] = found[f"2{leg}"].then(0, 0, -np.pi / 2, 0, q3, 0)
-    found[f"4{leg}"] = found[f"3{leg}"].then(0, 0, 0, D4, -q3, 0)
-    found[f"5{leg}"] = found[f"4{leg}"].then(0, 0, np.pi / 2, 0, -q2, 0)
-    return found
+    table = {f"1{leg}": first}
+    table[f"2{leg}"] = first.then(0, 0, -np.pi / 2, 0, q2, 0)
+    table[f"3{leg}"] = table[f"2{leg}"].then(0, 0, -np.pi / 2, 0, q3, 0)
+    table[f"4{leg}"] = table[f"3{leg}"].then(0, 0, 0, D4, -q3, 0)
+    table[f"5{leg}"] = table[f"4{leg}"].then(0, 0, np.pi / 2, 0, -q2, 0)
+    return table
 
 
 def orthoglide_2012(u):
@@ -84,12 +84,12 @@ def orthoglide_2012(u):
 
 
 def rows_2003(first, q2, q3, leg):
-    found = {f"1{leg}": first}
-    found[f"2{leg}"] = first.then(0, 0, -np.pi / 2, 0, q2, 0)
-    found[f"3{leg}"] = found[f"2{leg}"].then(0, B3, -np.pi / 2, 0, q3, 0)
-    found[f"4{leg}"] = found[f"3{leg}"].then(0, 0, 0, D4, -q3, 0)
-    found[f"7{leg}"] = found[f"2{leg}"].then(0, B7, -np.pi / 2, 0, q3, 0)
-    return found
+    table = {f"1{leg}": first}
+    table[f"2{leg}"] = first.then(0, 0, -np.pi / 2, 0, q2, 0)
+    table[f"3{leg}"] = table[f"2{leg}"].then(0, B3, -np.pi / 2, 0, q3, 0)
+    table[f"4{leg}"] = table[f"3{leg}"].then(0, 0, 0, D4, -q3, 0)
+    table[f"7{leg}"] = table[f"2{leg}"].then(0, B7, -np.pi / 2, 0, q3, 0)
+    return table
 
 
 def orthoglide_2003(u):
@@ -204,7 +204,7 @@ def columns(name, samples=70, seed=5):
     """{standard parameter: its column}."""
     robot, rng = ROBOTS[name], np.random.default_rng(seed)
     gravity = np.array(robot.gravity)
-    found = {}
+    table = {}
     for _ in range(samples):
         u = rng.uniform(robot.low, robot.high)
         posture = moving(robot.posture, u, rng.normal(0, 1, u.size))
@@ -224,15 +224,15 @@ def columns(name, samples=70, seed=5):
             if robot.offsets:
                 row[f"Off{joint}"] = (0.0, qd, 0.0, 0.0)
         for parameter, values in row.items():
-            found.setdefault(parameter, []).extend(values)
-    return {parameter: np.array(values) for parameter, values in found.items()}
+            table.setdefault(parameter, []).extend(values)
+    return {parameter: np.array(values) for parameter, values in table.items()}
 
 
 def rank(vectors):
     matrix = np.array(vectors).T
     sizes = np.linalg.norm(matrix, axis=0)
-    kept = matrix[:, sizes > 1e-9] / sizes[sizes > 1e-9]
-    values = np.linalg.svd(kept, compute_uv=False)
+    stored = matrix[:, sizes > 1e-9] / sizes[sizes > 1e-9]
+    values = np.linalg.svd(stored, compute_uv=False)
     count = int(np.sum(values > 1e-8 * values[0]))
     assert count == len(values) or values[count] < 1e-3 * values[count - 1]
     return count
@@ -245,13 +245,13 @@ def within(vector, others):
     return bool(np.linalg.norm(rest) < 1e-7 * max(np.linalg.norm(vector), 1e-9))
 
 
-def grouping(name, kept):
+def grouping(name, stored):
     """{standard parameter: {kept parameter: how much of it is grouped there}}."""
-    found, order = columns(name), sorted(kept)
-    basis = np.array([found[parameter] for parameter in order]).T
+    values, order = columns(name), sorted(stored)
+    basis = np.array([values[parameter] for parameter in order]).T
     scale = np.linalg.norm(basis, axis=0)
-    assert rank([found[parameter] for parameter in order]) == len(order)
-    every = np.array(list(found.values())).T
+    assert rank([values[parameter] for parameter in order]) == len(order)
+    every = np.array(list(values.values())).T
     factors = np.linalg.lstsq(basis / scale, every, rcond=None)[0] / scale[:, None]
     assert np.allclose(basis @ factors, every, atol=1e-6 * np.abs(every).max())
-    return {p: dict(zip(order, factors[:, i], strict=True)) for i, p in enumerate(found)}
+    return {p: dict(zip(order, factors[:, i], strict=True)) for i, p in enumerate(values)}

@@ -20,8 +20,8 @@ RNG = np.random.default_rng(2003)
 
 def holds(name, line):
     oracle = ORACLES.get(line.check)
-    found = None if oracle is None else oracle(read_paper(name), line)
-    return None if found is None else bool(found)
+    result = None if oracle is None else oracle(read_paper(name), line)
+    return None if result is None else bool(result)
 
 
 def value(text, known):
@@ -61,16 +61,16 @@ def relation(paper, line):
         return None
     left, _, right = line.text.partition("=")
     rename = build_renamer(paper, line, line.legs[0])
-    printed, own = {}, rename(left.strip()).removesuffix("R")
+    printed, items = {}, rename(left.strip()).removesuffix("R")
     symbols = {"d4", "D4", "D41", "D42", "D43", "g"}
     known = dict.fromkeys(symbols, m.D4) | {"g": 9.81}
     for monomial, amount in read_sum(right, rename, "123").items():
         names = [n for n, _ in monomial if n not in symbols]
         factor = prod(known[n] ** p for n, p in monomial if n in symbols)
         printed[names[0]] = (float(amount.value) * factor, float(amount.half) * abs(factor))
-    for parameter, kept in groupings(line.robot).items():
+    for parameter, stored in groupings(line.robot).items():
         wanted, half = printed.get(parameter, (0.0, 0.0))
-        if abs(kept[own] - wanted) > half + 1e-6:
+        if abs(stored[items] - wanted) > half + 1e-6:
             return False
     return True
 
@@ -117,9 +117,9 @@ def closure(paper, line):
         text = with_deltas(quote, int(leg))
         known = {"a": m.A, "d4": m.D4, "d6": m.D6, "q1i": q1, "q2i": q2, "q3i": q3}
         known |= dict(zip("xyz", end, strict=True)) | {f"q1{leg}": q1}
-        found = np.array([value(part, known) for part in text.split(";")])
+        actual = np.array([value(part, known) for part in text.split(";")])
         wanted = first.turn.T @ end if ";" in text else np.zeros(1)
-        if not np.allclose(found, wanted):
+        if not np.allclose(actual, wanted):
             return False
     return True
 
@@ -140,11 +140,11 @@ def effort(paper, line):
     J = {key: RNG.normal(0, 1, (3, 3)) for key in ("p", "i", "1", "2", "3")}
     speeds = {"motors": np.linalg.inv(J["p"]), "platform": np.eye(3)}
     speeds["leg"] = np.linalg.inv(J[what[-1]]) if here == "leg" else None
-    force, found = RNG.normal(0, 1, 3), np.eye(3)
+    force, values = RNG.normal(0, 1, 3), np.eye(3)
     for which in re.findall(r"\^0J(\w)\^T", line.quote):
-        found = found @ J[which].T
+        values = values @ J[which].T
     V = RNG.normal(0, 1, (3, 5))
-    return bool(np.allclose((found @ force) @ speeds[there] @ V, force @ speeds[here] @ V))
+    return bool(np.allclose((values @ force) @ speeds[there] @ V, force @ speeds[here] @ V))
 
 
 # Energies and speeds of Evr@: point masses, and frames turned by small steps.
@@ -273,8 +273,8 @@ def recursion(paper, line):
             "qdk": qd,
             "^kak": np.array([0, 0, 1]),
         }
-        found = side_by_side(line.quote, letters)
-        if not np.allclose(found, wk if line.expected[0] == "angular" else vk):
+        result = side_by_side(line.quote, letters)
+        if not np.allclose(result, wk if line.expected[0] == "angular" else vk):
             return False
     return True
 
@@ -314,8 +314,8 @@ LETTERS = {
 
 def wrist(seed):
     rng = np.random.default_rng(seed)
-    found = {f"{b}{n}": rng.uniform(0.1, 1) for b, names in LETTERS.items() for n in names}
-    return found | {"al1": 0.2, "bl1": rng.uniform(0.1, 1)}
+    table = {f"{b}{n}": rng.uniform(0.1, 1) for b, names in LETTERS.items() for n in names}
+    return table | {"al1": 0.2, "bl1": rng.uniform(0.1, 1)}
 
 
 def triads(q):
@@ -334,11 +334,11 @@ def centres(q, p):
 def bodies(q, qd, p):
     """{body: (velocity of the centre in n, w in the body, its axes)}."""
     z = np.asarray(q) + 1j * m.STEP * np.asarray(qd)
-    found, at = {}, centres(z, p)
+    values, at = {}, centres(z, p)
     for body, turn in triads(z).items():
         w = m.rigid(m.Frame(turn, at[body]))[0]
-        found[body] = (at[body].imag / m.STEP, w, turn.real)
-    return found
+        values[body] = (at[body].imag / m.STEP, w, turn.real)
+    return values
 
 
 def inertia_of(body, p):
@@ -389,7 +389,7 @@ def fitted(name, seed):
     table = robots_of("hanssen-2000")["wrist"].table
     p, qs = wrist(seed), np.random.default_rng(seed).uniform(-3, 3, (14, 3))
     names = table.closed.algebra.names[: table.closed.algebra.moving]
-    own = [c for c in table.coefficients if c.function == name]
+    items = [c for c in table.coefficients if c.function == name]
     matrix = np.array(
         [
             [
@@ -398,7 +398,7 @@ def fitted(name, seed):
                     for n, e in zip(names, c.exponents, strict=False)
                     if e
                 )
-                for c in own
+                for c in items
             ]
             for q in qs
         ]
@@ -406,7 +406,7 @@ def fitted(name, seed):
     wanted = np.array([function(name, q, p) for q in qs])
     values = np.linalg.lstsq(matrix, wanted, rcond=None)[0]
     assert np.allclose(matrix @ values, wanted, atol=1e-7)
-    return {c.name: x for c, x in zip(own, values, strict=True)}
+    return {c.name: x for c, x in zip(items, values, strict=True)}
 
 
 @cache
@@ -528,27 +528,27 @@ def names(paper, line):
     wanted = NAMES.get(line.place)
     if wanted is None:
         return None
-    found = set(re.findall(r"\b(?!and\b)[A-Za-z]\w*", line.quote)) - {"0"}
-    return {name.removeprefix("h") for name in found} == wanted()
+    actual = set(re.findall(r"\b(?!and\b)[A-Za-z]\w*", line.quote)) - {"0"}
+    return {name.removeprefix("h") for name in actual} == wanted()
 
 
 def without_effect(pattern):
-    found = m.columns("evra")
-    return {n for n, x in found.items() if re.fullmatch(pattern, n) and not np.any(abs(x) > 1e-9)}
+    table = m.columns("evra")
+    return {n for n, x in table.items() if re.fullmatch(pattern, n) and not np.any(abs(x) > 1e-9)}
 
 
 def grouped_within(own, before):
     """Prefixes of a link that are combinations of those before, or of no effect at all."""
-    found = m.columns("evra")
-    kept = robots_of("houda")["evra"].independent_parameters
-    others = [found[f"{p}{before}"] for p in m.INERTIA]
-    others += [found[f"{p}{own}"] for p in m.INERTIA if f"{p}{own}" in kept]
+    table = m.columns("evra")
+    stored = robots_of("houda")["evra"].independent_parameters
+    others = [table[f"{p}{before}"] for p in m.INERTIA]
+    others += [table[f"{p}{own}"] for p in m.INERTIA if f"{p}{own}" in stored]
     return {
         p
         for p in m.INERTIA
-        if f"{p}{own}" not in kept
-        and np.any(abs(found[f"{p}{own}"]) > 1e-9)
-        and m.within(found[f"{p}{own}"], others)
+        if f"{p}{own}" not in stored
+        and np.any(abs(table[f"{p}{own}"]) > 1e-9)
+        and m.within(table[f"{p}{own}"], others)
     }
 
 
@@ -626,10 +626,10 @@ NAMES = {
 
 def arithmetic(paper, line):
     """Table 3 of 2003: a relative sigma has the sign of the value, eq. (37)."""
-    found = [float(n.value) for n in read_numbers(line.quote)]
+    values = [float(n.value) for n in read_numbers(line.quote)]
     if line.expected != ("b = abs(b)*a/abs(a)",):
         return None
-    return found[-2] * found[-1] > 0
+    return values[-2] * values[-1] > 0
 
 
 ORACLES = {

@@ -51,12 +51,12 @@ def test_every_alteration_of_a_line_is_noticed(name):
             tried += 1
             if check_line(paper, changed, robots).verdict is not LineVerdict.DIFFERENT:
                 survivors.append(f"{line.place}: {text}")
-        for index, given in enumerate(line.assumptions):
-            for text in islice(altered(given, line.check), tried % EVERY, None, EVERY):
+        for index, entry in enumerate(line.assumptions):
+            for text in islice(altered(entry, line.check), tried % EVERY, None, EVERY):
                 others = (*line.assumptions[:index], text, *line.assumptions[index + 1 :])
                 tried += 1
-                found = check_line(paper, replace(line, assumptions=others), robots)
-                if found.verdict is not LineVerdict.DIFFERENT:
+                out = check_line(paper, replace(line, assumptions=others), robots)
+                if out.verdict is not LineVerdict.DIFFERENT:
                     survivors.append(f"{line.place}: {line.text}; {text}")
     assert not survivors, "\n".join(survivors)
     assert tried > 5 * len(lines) // EVERY

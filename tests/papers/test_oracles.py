@@ -25,11 +25,11 @@ def test_every_charge_and_every_equality_is_found_by_other_means(name):
     lines = [*paper.lines, *collect_coefficient_quotations(paper, robots)]
     unproved, refuted, judged = [], [], 0
     for line in (one for quoted in lines for one in expand_legs(quoted)):
-        verdict, found = check_line(paper, line, robots).verdict, holds(name, line)
-        judged += found is not None
-        if verdict is LineVerdict.MISPRINT and found is not False:
+        verdict, values = check_line(paper, line, robots).verdict, holds(name, line)
+        judged += values is not None
+        if verdict is LineVerdict.MISPRINT and values is not False:
             unproved.append(f"{line.place}: {line.text}")
-        if verdict not in (LineVerdict.MISPRINT, LineVerdict.DIFFERENT) and found is False:
+        if verdict not in (LineVerdict.MISPRINT, LineVerdict.DIFFERENT) and values is False:
             refuted.append(f"{line.place}: {line.text}")
         right = replace(line, quote=line.correction, correction="", slip="")
         if line.correction and holds(name, right) is False:
@@ -56,9 +56,9 @@ def test_the_oracles_notice_what_is_altered(name):
             every = islice(altered(line.quote, line.check), len(line.quote) % 3, None, 3)
             for text in every:
                 try:
-                    found = holds(name, replace(line, quote=text))
+                    result = holds(name, replace(line, quote=text))
                 except UNREADABLE:
-                    found = False
-                if found:
+                    result = False
+                if result:
                     survivors.append(f"{line.place}: {text}")
     assert survivors == []

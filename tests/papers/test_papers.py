@@ -48,9 +48,9 @@ def test_the_command_ends_well(capsys, tmp_path):
     place = tmp_path / "lines.json"
     assert main(["reproduce", "briot-2012", "--section", "print", "--json", str(place)]) == 0
     assert "printed and equal" in capsys.readouterr().out
-    told = json.loads(place.read_text())
-    assert {line["verdict"] for line in told["lines"]} >= {"printed and different"}
-    assert "methods" not in told
+    data = json.loads(place.read_text())
+    assert {line["verdict"] for line in data["lines"]} >= {"printed and different"}
+    assert "methods" not in data
 
 
 def test_a_line_that_differs_ends_with_status_1(capsys, monkeypatch):
@@ -65,8 +65,8 @@ def test_a_line_that_differs_ends_with_status_1(capsys, monkeypatch):
 def test_a_known_difference_that_is_not_there_is_a_difference():
     right = {"robot": CLOSED, "check": "relation", "quote": "Fv21R = Fv21 + Fv51"}
     assert one("briot-2012", **right).verdict is LineVerdict.EQUAL
-    told = one("briot-2012", **right, difference="Fv31", slip="omission")
-    assert told.verdict is LineVerdict.DIFFERENT
+    result = one("briot-2012", **right, difference="Fv31", slip="omission")
+    assert result.verdict is LineVerdict.DIFFERENT
 
 
 @pytest.mark.parametrize(
@@ -102,24 +102,24 @@ def test_nothing_of_the_paper_is_passed_over(name):
     """Every equation and table stands in a line, or among what is not checked with its reason."""
     paper = read_paper(name)
     assert all(paper.unchecked.values())
-    told = {"eq": set(), "Table": set()}
+    data = {"eq": set(), "Table": set()}
     listed = r"(eq|Table)s?\.? (\(?\d+\)?(?:(?:-|, | and )\(?\d+\)?)*)"
     for place in (*(line.place for line in paper.lines), *paper.unchecked):
         for kind, numbers in re.findall(listed, place):
             for first, last in re.findall(r"(\d+)\)?(?:-\(?(\d+))?", numbers):
-                told[kind] |= set(range(int(first), int(last or first) + 1))
+                data[kind] |= set(range(int(first), int(last or first) + 1))
     equations, tables = NUMBERED[name]
-    assert set(range(1, equations + 1)) - told["eq"] == set()
-    assert set(range(1, tables + 1)) - told["Table"] == set()
+    assert set(range(1, equations + 1)) - data["eq"] == set()
+    assert set(range(1, tables + 1)) - data["Table"] == set()
 
 
 def test_decimals_hold_to_their_printed_digits():
     text = "M13R = M13 + M23 - {}MX33 + M33"
-    found = {
+    table = {
         number: one("briot-2012", robot=CLOSED, check="relation", quote=text.format(number)).verdict
         for number in ("3.2258", "3.226", "3.23", "3.2", "3.2257", "3.22", "3.3")
     }
-    equal = {number for number, verdict in found.items() if verdict is LineVerdict.ROUNDED}
+    equal = {number for number, verdict in table.items() if verdict is LineVerdict.ROUNDED}
     assert equal == {"3.2258", "3.226", "3.23", "3.2"}
 
 
@@ -128,14 +128,12 @@ def test_a_sealed_quotation_may_not_be_touched():
     paper, robots = read_paper("guegan-2003"), robots_of("guegan-2003")
     assert check_line(paper, line, robots).verdict is LineVerdict.MEASURED
     touched = dataclasses.replace(line, quote=line.quote.replace("4805.57", "4805.58"))
-    found = check_line(paper, touched, robots)
-    assert (
-        found.verdict is LineVerdict.DIFFERENT and "not those that were read" in found.derived_text
-    )
+    out = check_line(paper, touched, robots)
+    assert out.verdict is LineVerdict.DIFFERENT and "not those that were read" in out.derived_text
 
 
 @with_cases(
-    "check, quote, gives, told",
+    "check, quote, gives, text",
     ("relation", "M11R + M12", (), "is no equation"),
     ("relation", "M99R = M11", (), "M99R is no base parameter"),
     ("relation", "M11R = M11 +", (), 'got "the end"; expected a name or a number'),
@@ -150,10 +148,10 @@ def test_a_sealed_quotation_may_not_be_touched():
     ("tied", "q99 = q11", (), "there is no joint variable q99"),
     ("tied", "q41 = -q31, q41 = -q31", (), "q41 is given twice"),
 )
-def test_what_cannot_be_read_is_different_and_says_why(check, quote, gives, told):
-    found = one("briot-2012", robot=CLOSED, check=check, quote=quote, expected=gives)
-    assert found.verdict is LineVerdict.DIFFERENT
-    assert told in found.derived_text
+def test_what_cannot_be_read_is_different_and_says_why(check, quote, gives, text):
+    result = one("briot-2012", robot=CLOSED, check=check, quote=quote, expected=gives)
+    assert result.verdict is LineVerdict.DIFFERENT
+    assert text in result.derived_text
 
 
 def test_sums_are_read_as_they_are_printed():

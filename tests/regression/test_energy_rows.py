@@ -137,13 +137,13 @@ def test_an_empty_channel_or_a_robot_that_stands_leaves_no_window(arm):
 
 
 @with_cases(
-    "window, told",
+    "window, text",
     (60.0, r"run: --window of 60 s is longer than the longest motion without a gap, 9.995 s"),
     (0.005, r"run: --window of 0.005 s; expected two samples or more, 0.01 s"),
     (-1.0, r"--window of -1 s; expected two samples"),
     (float("nan"), r"--window of nan s; expected two samples"),
 )
-def test_windows_that_cannot_be(arm, window, told):
+def test_windows_that_cannot_be(arm, window, text):
     model, _, log = arm
-    with pytest.raises(DataError, match=told):
+    with pytest.raises(DataError, match=text):
         build_energy_rows(model, observe(model, [log]), window)

@@ -37,8 +37,8 @@ def log_of(t, q, qd, qdd=None, **more):
 
 def checked(log, cutoff=5.0, refuse=True):
     pieces, _ = split_log(log, 0, True)
-    found = check_derivatives(log, pieces, cutoff, refuse)
-    return found, np.concatenate(found.bad)
+    result = check_derivatives(log, pieces, cutoff, refuse)
+    return result, np.concatenate(result.bad)
 
 
 def switched(rate=100):
@@ -96,8 +96,8 @@ HONEST = {
 @pytest.mark.parametrize("cutoff", [5.0, *rotating(0.0, 20.0)])
 @pytest.mark.parametrize("case", HONEST)
 def test_honest_logs_lose_nothing_and_nothing_is_said(case, cutoff):
-    found, bad = checked(log_of(*HONEST[case]), cutoff)
-    assert not bad.any() and found.contradictions == () and found.notes == ()
+    result, bad = checked(log_of(*HONEST[case]), cutoff)
+    assert not bad.any() and result.contradictions == () and result.notes == ()
 
 
 @pytest.mark.parametrize("unit", [1e-3, *rotating(1.0, 1e4)])
@@ -110,10 +110,10 @@ def test_a_transient_of_an_estimator_is_found_where_it_is(case, unit):
     spoilt = qdd.copy()
     spoilt[:, 0] += defect
     log = log_of(t, unit * q, unit * qd, unit * spoilt)
-    found, bad = checked(log, 10.0)
+    result, bad = checked(log, 10.0)
     assert bad[defect > 0.7 * size].all()
     assert not bad[t > 1.0].any()
-    (line,) = found.contradictions
+    (line,) = result.contradictions
     assert (line.column, line.of, line.samples) == ("qdd1", "qd1", bad.sum())
     assert line.largest == pytest.approx(3.0 * size * unit, rel=0.35) and line.time < 0.2
     assert line.largest > line.limit > 0.2 * size * unit
@@ -155,10 +155,10 @@ def test_contradicted_samples_reach_no_row_of_any_joint():
         "25 %",
     ):
         assert words in text
-    kept = observe(model, [log], Processing(keep_contradicted=True))
-    assert np.max(np.abs(kept.W @ beta - kept.y)) > 1.0
-    assert "impossible derivatives are used" in "\n".join(kept.report.format_lines())
-    again = read_processing(kept.report.processing.to_json())
+    rows = observe(model, [log], Processing(keep_contradicted=True))
+    assert np.max(np.abs(rows.W @ beta - rows.y)) > 1.0
+    assert "impossible derivatives are used" in "\n".join(rows.report.format_lines())
+    again = read_processing(rows.report.processing.to_json())
     assert again.keep_contradicted
 
 
@@ -181,10 +181,10 @@ def test_a_delay_is_told_and_costs_no_sample(columns, samples):
     t, q, qd, _ = columns
     delay = samples * t[1]
     later = np.column_stack([np.interp(t - delay, t, v) for v in qd.T])
-    found, bad = checked(log_of(t, q, later), 10.0)
+    result, bad = checked(log_of(t, q, later), 10.0)
     assert not bad.any()
     way = "lags behind" if samples > 0 else "runs ahead of"
-    (note,) = found.notes
+    (note,) = result.notes
     assert (
         f"qd {way} the derivative of q by {abs(delay):.3g} s ({abs(samples):.2g} samples)" in note
     )
@@ -193,9 +193,9 @@ def test_a_delay_is_told_and_costs_no_sample(columns, samples):
 def test_a_delayed_switching_acceleration_is_told_and_kept():
     t, q, qd, qdd = switched()
     qdd[1:] = 0.5 * (qdd[1:] + qdd[:-1])  # at a switch between two samples neither early nor late
-    found, bad = checked(log_of(t, q, qd, np.roll(qdd, 2, axis=0)))
-    assert not bad.any() and len(found.notes) == 1
-    delay = float(found.notes[0].split(" by ")[1].split(" s ")[0])
+    result, bad = checked(log_of(t, q, qd, np.roll(qdd, 2, axis=0)))
+    assert not bad.any() and len(result.notes) == 1
+    delay = float(result.notes[0].split(" by ")[1].split(" s ")[0])
     assert delay == pytest.approx(0.02, abs=0.002)
 
 
@@ -255,14 +255,14 @@ def test_the_transients_at_both_ends_of_measured_runs(number):
     """The source's accelerations start and end with a transient, its joint 4 most of all."""
     log = kinova(f"traj_{number}")
     pieces, _ = split_log(log, 0, True)
-    found = check_derivatives(log, pieces, 20.0)
-    counts = [int(bad.sum()) for bad in found.bad]
+    result = check_derivatives(log, pieces, 20.0)
+    counts = [int(bad.sum()) for bad in result.bad]
     assert not any(counts[2:-1])
-    start = np.concatenate([p.time[b] for p, b in zip(pieces[:2], found.bad[:2], strict=True)])
+    start = np.concatenate([p.time[b] for p, b in zip(pieces[:2], result.bad[:2], strict=True)])
     assert start.size >= 10 and start.max() < log.time[0] + 0.35
     assert sum(counts) < 0.04 * log.rows
-    assert "qdd4" in {line.column for line in found.contradictions}
-    assert found.notes == ()
+    assert "qdd4" in {line.column for line in result.contradictions}
+    assert result.notes == ()
 
 
 @pytest.mark.measured
@@ -276,5 +276,5 @@ def test_rounded_measured_velocities_are_believed(name):
         DATA / "ur10e" / f"ur-20_{name}.parquet", NumpyModel(rows, gains=(1.0,) * 6).spec
     )
     for cutoff in (5.0, 20.0):
-        found, bad = checked(log, cutoff)
-        assert not bad.any() and found.notes == ()
+        result, bad = checked(log, cutoff)
+        assert not bad.any() and result.notes == ()

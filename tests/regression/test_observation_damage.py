@@ -30,8 +30,8 @@ ARMS = {
 
 def repaired(log, spec):
     """The log mended of all that looks like a defect, and that in words."""
-    mended, found, _ = repair_log(log, spec)
-    return mended, describe_damages(log, log.rows, spec, found, {})
+    mended, result, _ = repair_log(log, spec)
+    return mended, describe_damages(log, log.rows, spec, result, {})
 
 
 def drawn(random, name, rate=None, noise=None):
@@ -53,8 +53,8 @@ def test_honest_logs_are_left_as_they_are(name, rate):
     """Coulomb friction leaps at every reversal; noise and steps of the encoder are drawn."""
     for seed in range(2):
         log, _ = drawn(np.random.default_rng([seed, rate]), name, rate)
-        mended, found = repaired(log, ARMS[name].spec)
-        assert found == ()
+        mended, result = repaired(log, ARMS[name].spec)
+        assert result == ()
         assert np.array_equal(mended.q, log.q) and np.array_equal(mended.tau, log.tau)
         assert mended.segment is None
 
@@ -150,15 +150,15 @@ def test_defects_drawn_at_random_are_named_with_joint_and_time(defect):
         if drawn_one is None:
             continue
         log, joint, time = drawn_one
-        _, found = repaired(log, ARMS[name].spec)
+        _, result = repaired(log, ARMS[name].spec)
         right = [
             one
-            for one in found
+            for one in result
             if one.kind in NAMED.get(defect, {defect})
             and one.joint == joint
             and (defect == "clipped" or min(abs(np.subtract(one.times, time))) < 3 * log.step)
         ]
-        assert len(found) == len(right), [one.line for one in found]
+        assert len(result) == len(right), [one.line for one in result]
         seen[bool(right)] += 1
     assert seen[True] >= 19
 
@@ -173,10 +173,10 @@ def test_rows_that_a_recorder_repeats_are_left_out(each):
         again = dataclasses.replace(
             log, time=np.arange(len(rows)) / (125.0 * each), q=log.q[rows], tau=log.tau[rows]
         )
-        mended, found = repaired(again, ARMS[name].spec)
-        assert [one.kind for one in found] == ["repeated"]
-        assert "gave about 125 rows a second" in found[0].line
-        assert mended.rows == len(set(rows)) == len(rows) - found[0].samples
+        mended, result = repaired(again, ARMS[name].spec)
+        assert [one.kind for one in result] == ["repeated"]
+        assert "gave about 125 rows a second" in result[0].line
+        assert mended.rows == len(set(rows)) == len(rows) - result[0].samples
         seen = observe(ARMS[name], [again])
         assert not any("rings" in line for line in seen.report.collect_warnings())
 
@@ -246,8 +246,8 @@ def test_the_report_names_the_defect_and_the_rest_stays_usable(defect):
 def test_a_new_zero_is_joined_to_the_longest_stretch():
     log, _ = sample("zero", row=4000)
     whole, _ = drawn(np.random.default_rng(3), "planar", 1000, 1e-3)
-    mended, (found,) = repaired(log, planar_arm().spec)
-    assert (found.kind, found.size) == ("zero", pytest.approx(0.5, abs=0.01))
+    mended, (result,) = repaired(log, planar_arm().spec)
+    assert (result.kind, result.size) == ("zero", pytest.approx(0.5, abs=0.01))
     assert np.max(np.abs(mended.q - whole.q)) < 0.01
     early, _ = sample("zero", row=1000)
     mended, _ = repaired(early, planar_arm().spec)
@@ -269,8 +269,8 @@ def test_spikes_of_logged_velocities_are_left_out():
     qd = np.gradient(log.q, log.time, axis=0) + 1e-3 * random.normal(size=log.q.shape)
     qd[1000, 0] += 5.0
     log = dataclasses.replace(log, qd=qd)
-    (found,) = repaired(log, model.spec)[1]
-    assert (found.column, found.unit, found.times) == ("qd1", "rad/s", (2.0,))
+    (result,) = repaired(log, model.spec)[1]
+    assert (result.column, result.unit, result.times) == ("qd1", "rad/s", (2.0,))
 
 
 @pytest.mark.measured
@@ -295,5 +295,5 @@ def test_nothing_is_found_in_measured_logs(measured_folder, folder):
         columns = pq.read_schema(path).names
         names = [str(j) for j in range(1, 10) if f"q{j}" in columns]
         spec = manifest_of(names, {"emps": "1", "dvrk_psm": "3"}.get(folder, ""))
-        found = repaired(read_log(path, spec), spec)[1]
-        assert [one.kind for one in found] == ["repeated"] * (folder == "panda"), path.name
+        result = repaired(read_log(path, spec), spec)[1]
+        assert [one.kind for one in result] == ["repeated"] * (folder == "panda"), path.name

@@ -43,13 +43,13 @@ def test_the_late_joint_is_named_with_its_delay(rate, joints):
     for _ in range(3):
         j, lag = int(random.integers(joints)), random.uniform(0.012, 0.08)
         log, _ = drawn(random, rate, [lag * (k == j) for k in range(joints)], joints)
-        found = consistency_of(log)
-        (late,) = found.delays
+        result = consistency_of(log)
+        (late,) = result.delays
         assert late.column == f"qd{j + 1}" and late.of == f"q{j + 1}"
         assert late.seconds == pytest.approx(lag, abs=max(0.1 * lag, 0.2 / rate))
-        assert f"qd{j + 1} lags behind the derivative of q{j + 1} by 0.0" in found.notes[0]
-        assert "and not all joints do" in found.notes[0]
-        assert not np.concatenate(found.bad).any()
+        assert f"qd{j + 1} lags behind the derivative of q{j + 1} by 0.0" in result.notes[0]
+        assert "and not all joints do" in result.notes[0]
+        assert not np.concatenate(result.bad).any()
 
 
 @pytest.mark.parametrize("joints", [1, 2, 7])
@@ -82,10 +82,10 @@ def test_late_velocities_are_not_used_where_they_do_harm(lags):
     assert report.derivatives == "qd and qdd by differentiating q, as logged derivatives come late"
     assert any("the positions are differentiated instead" in note for note in report.notes)
     assert report.contradicted == 0
-    kept = observe(ARM, [log], Processing(derivatives="log"))
-    (note,) = (note for note in kept.report.logs[0].notes if "lags behind" in note)
+    rows = observe(ARM, [log], Processing(derivatives="log"))
+    (note,) = (note for note in rows.report.logs[0].notes if "lags behind" in note)
     assert "used as logged; fit with --derivatives position to avoid it" in note
-    assert root_mean_square(kept, beta) > 5.0 * root_mean_square(seen, beta)
+    assert root_mean_square(rows, beta) > 5.0 * root_mean_square(seen, beta)
 
 
 def test_a_small_delay_does_no_harm_and_the_velocities_are_used():

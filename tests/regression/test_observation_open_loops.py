@@ -66,8 +66,8 @@ def test_the_fit_does_without_the_samples_that_cannot_close():
     assert seen.used[~open_].all()
     assert (classify_rows(seen)[open_] == MASKS.index("loops open")).all()
     assert np.isfinite(seen.columns).all()
-    found = np.linalg.lstsq(seen.W, seen.y, rcond=None)[0]
-    np.testing.assert_allclose(found, some_beta(model), rtol=1e-7)
+    actual = np.linalg.lstsq(seen.W, seen.y, rcond=None)[0]
+    np.testing.assert_allclose(actual, some_beta(model), rtol=1e-7)
     (line,) = (line for line in seen.report.collect_warnings() if "closed" in line)
     assert f"at {open_.sum()} of {len(log.time)} samples" in line
     assert f"first at {log.time[open_][0]:.6g} s" in line
@@ -89,9 +89,9 @@ def test_the_nearest_posture_that_closes_stands_in():
 def test_fit_compare_diagnose_and_free_run_go_through(further, tmp_path, capsys):
     log, open_ = log_of(0.955, noise=0.3)
     data, model = write(tmp_path / "run.csv", log), str(tmp_path / "model.json")
-    told = f"cannot be closed at {open_.sum()} of {len(log.time)} samples"
+    text = f"cannot be closed at {open_.sum()} of {len(log.time)} samples"
     assert main(["fit", "five-bar", data, "--out", model]) == 0
-    assert told in capsys.readouterr().out
+    assert text in capsys.readouterr().out
     report = tmp_path / "report.json"
     assert main(["compare", model, data, "--json", str(report)]) == 0
     if not further:

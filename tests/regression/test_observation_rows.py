@@ -105,17 +105,17 @@ def test_a_burst_on_masked_samples_does_not_reach_any_row():
     assert report.logs[0].saturated == {"1": 30}
     text = "\n".join(report.format_lines())
     assert "torque stuck at its limit in 30 rows" in text and "not used" in text
-    kept = observe(model, [dataclasses.replace(log, tau=tau)], Processing(keep_saturated=True))
-    assert np.max(np.abs(kept.W @ beta - kept.y)) > 1.0
+    rows = observe(model, [dataclasses.replace(log, tau=tau)], Processing(keep_saturated=True))
+    assert np.max(np.abs(rows.W @ beta - rows.y)) > 1.0
 
 
 def test_shafts_are_found_from_the_columns_alone():
     wrist = NumpyModel([Row(), Row(-np.pi / 2), Row(np.pi / 2)], coupling={2: (0.0, 1.0, 0.5)})
-    found = {shaft.name: shaft for shaft in find_shafts(wrist)}
-    assert set(found) == {"1", "2", "3", "2+3"}
-    assert found["2"].joints == (1,) and found["2+3"].joints == (1, 2)
-    ratio = found["2+3"].coefficients[2] / found["2+3"].coefficients[1]
-    assert ratio == pytest.approx(0.5) and found["2+3"].coefficients[0] == 0.0
+    table = {shaft.name: shaft for shaft in find_shafts(wrist)}
+    assert set(table) == {"1", "2", "3", "2+3"}
+    assert table["2"].joints == (1,) and table["2+3"].joints == (1, 2)
+    ratio = table["2+3"].coefficients[2] / table["2+3"].coefficients[1]
+    assert ratio == pytest.approx(0.5) and table["2+3"].coefficients[0] == 0.0
     assert find_shafts(planar_arm(friction=False)) == ()
 
 
@@ -229,15 +229,15 @@ def test_the_cause_of_no_rows_is_named():
 
 
 @with_cases(
-    "chosen, told",
+    "chosen, text",
     ({"parallel_cutoff": 1e-6}, r"--parallel-cutoff\) of 1e-06 Hz.* 20 s; expected more than"),
     ({"position_cutoff": 1e-300}, r"--cutoff\) of 1e-300 Hz.* 20 s; expected more than 0.05"),
     ({"decimation": 10**21}, r"--decimate\) from 4000 samples .* expected at most 2000"),
 )
-def test_a_filter_longer_than_the_log_is_refused_before_work(chosen, told):
+def test_a_filter_longer_than_the_log_is_refused_before_work(chosen, text):
     model = planar_arm()
     log = exact_log(model, some_beta(model), logged=False)
-    with pytest.raises(DataError, match=told):
+    with pytest.raises(DataError, match=text):
         observe(model, [log], Processing(**chosen))
 
 

@@ -190,11 +190,11 @@ def ringing_log(share, hertz, of=0.3):
 @pytest.mark.parametrize("share", [0.02, 0.17, 0.97])
 def test_what_rings_far_above_the_motion_is_no_motion(share):
     piece = split_log(ringing_log(share, 93.0), 0, False)[0][0]
-    (found,) = rings_of(ringing_log(share, 93.0))
-    assert found.joint == 1
-    assert found.frequency == pytest.approx(93.0, abs=0.1)
-    assert found.share == pytest.approx(share, rel=0.02)
-    assert "joint elbow rings at 93 Hz" in found.describe("elbow")
+    (result,) = rings_of(ringing_log(share, 93.0))
+    assert result.joint == 1
+    assert result.frequency == pytest.approx(93.0, abs=0.1)
+    assert result.share == pytest.approx(share, rel=0.02)
+    assert "joint elbow rings at 93 Hz" in result.describe("elbow")
     assert band_of(piece) == pytest.approx(3.0, abs=0.15)
 
 
@@ -221,9 +221,13 @@ def test_automatic_cutoffs_follow_the_motion(hertz, rate, position, parallel):
     chosen = cutoffs_of(Processing(), piece)[0]
     assert chosen.position_cutoff == pytest.approx(position, rel=0.05)
     assert chosen.parallel_cutoff == pytest.approx(parallel, rel=0.05)
-    given = Processing(position_cutoff=40.0, parallel_cutoff=7.0)
-    kept = cutoffs_of(given, piece)[0]
-    assert (kept.position_cutoff, kept.parallel_cutoff, kept.automatic_cutoffs) == (40.0, 7.0, ())
+    inputs = Processing(position_cutoff=40.0, parallel_cutoff=7.0)
+    stored = cutoffs_of(inputs, piece)[0]
+    assert (stored.position_cutoff, stored.parallel_cutoff, stored.automatic_cutoffs) == (
+        40.0,
+        7.0,
+        (),
+    )
     assert chosen.automatic_cutoffs == ("position_cutoff", "parallel_cutoff")
     assert cutoffs_of(chosen, piece)[0] == chosen
 
@@ -261,8 +265,8 @@ def noise_of(colour, size, seed=6):
         "shaking": 1.0 / (1.0 + ((f - 18.0) / 2.0) ** 2),
         "pink": 1.0 / np.sqrt(np.maximum(f, 0.05)),
     }[colour]
-    found = np.fft.irfft(gain * noise)
-    return size * found / np.std(found)
+    actual = np.fft.irfft(gain * noise)
+    return size * actual / np.std(actual)
 
 
 def first_piece(log):
@@ -299,8 +303,8 @@ def test_a_commanded_joint_moves_no_faster_than_its_command():
     clean, noise = arm_log(joints=1), noise_of("pink", 0.03)
     shaken = arm_log(noise, joint=0, joints=1)
     assert band_of(first_piece(shaken)) > 2.0
-    told = dataclasses.replace(shaken, commanded=clean.q)
-    assert band_of(first_piece(told)) == pytest.approx(0.6, abs=0.05)
+    text = dataclasses.replace(shaken, commanded=clean.q)
+    assert band_of(first_piece(text)) == pytest.approx(0.6, abs=0.05)
     unused = dataclasses.replace(shaken, commanded=np.zeros_like(clean.q))
     assert band_of(first_piece(unused)) == band_of(first_piece(shaken))
 
@@ -363,28 +367,30 @@ def noise_found(q, rate, band=2.0):
 def test_the_floor_is_the_density_of_white_noise(rate, size):
     time = np.arange(round(20 * rate)) / rate
     white = np.random.default_rng(1).normal(0.0, size, len(time))
-    found = noise_found(smooth(time) + white, rate)
-    assert found.density == pytest.approx(2.0 * size**2 / rate, rel=0.3)
-    assert found.deviation == pytest.approx(size, rel=0.15)
-    assert 2.0 < found.noise_crossover_hz < 30.0 and found.spectral_slope == 0.0
+    result = noise_found(smooth(time) + white, rate)
+    assert result.density == pytest.approx(2.0 * size**2 / rate, rel=0.3)
+    assert result.deviation == pytest.approx(size, rel=0.15)
+    assert 2.0 < result.noise_crossover_hz < 30.0 and result.spectral_slope == 0.0
     # what is differentiated below a cut-off has the noise that is reported
     speed = np.gradient(
         apply_zero_phase_lowpass(white[:, None], 1 / rate, 20.0, 100)[:, 0], 1 / rate
     )
-    assert found.compute_speed_deviation(20.0) == pytest.approx(np.std(speed), rel=0.3)
+    assert result.compute_speed_deviation(20.0) == pytest.approx(np.std(speed), rel=0.3)
 
 
 def test_a_finer_encoder_hides_the_motion_later():
     time = np.arange(20000) / 1000.0
     counts = [2**12, 2**16, 2**20]
-    found = [
+    values = [
         noise_found(np.round(smooth(time) * n / (2 * np.pi)) * (2 * np.pi / n), 1e3) for n in counts
     ]
-    assert found[0].noise_crossover_hz < found[1].noise_crossover_hz < found[2].noise_crossover_hz
-    for own, n in zip(found, counts, strict=True):
+    assert (
+        values[0].noise_crossover_hz < values[1].noise_crossover_hz < values[2].noise_crossover_hz
+    )
+    for item, n in zip(values, counts, strict=True):
         step = 2 * np.pi / n
-        assert own.step == pytest.approx(step, rel=1e-6)
-        assert own.deviation == pytest.approx(step / np.sqrt(12.0), rel=0.4)
+        assert item.step == pytest.approx(step, rel=1e-6)
+        assert item.deviation == pytest.approx(step / np.sqrt(12.0), rel=0.4)
     exact = noise_found(smooth(time), 1e3)
     assert exact.cutoff == 80.0 and exact.deviation < 1e-9
 
@@ -394,9 +400,9 @@ def test_noise_that_grows_towards_low_frequencies_is_told():
     f = np.maximum(np.fft.rfftfreq(len(time), 1e-3), 0.05)
     draw = np.random.default_rng(3).normal(0.0, 1e-4, len(time))
     coloured = np.fft.irfft(np.fft.rfft(draw) * (f / 100.0) ** -0.75)
-    found = noise_found(smooth(time) + coloured, 1e3)
-    assert found.spectral_slope == pytest.approx(1.5, abs=0.2)
-    assert "growing as f^-1." in found.format_words()
+    result = noise_found(smooth(time) + coloured, 1e3)
+    assert result.spectral_slope == pytest.approx(1.5, abs=0.2)
+    assert "growing as f^-1." in result.format_words()
 
 
 def test_a_valley_between_two_lines_of_the_motion_is_no_floor():
@@ -416,10 +422,10 @@ def test_noise_of_logged_accelerations_lowers_the_parallel_filter_and_is_in_sigm
         tau += 0.01 * np.std(tau, axis=0) * rng.normal(size=tau.shape)
         for size in (0.0, 2.0):
             seen = qdd + size * rng.normal(size=q.shape)
-            found = observe(model, [Log("a", ("1", "2"), time, q, tau, qd=qd, qdd=seen)])
-            cutoffs.append(found.report.processing.parallel_cutoff)
-        fit = identify(found, "weighted", model)
+            result = observe(model, [Log("a", ("1", "2"), time, q, tau, qd=qd, qdd=seen)])
+            cutoffs.append(result.report.processing.parallel_cutoff)
+        fit = identify(result, "weighted", model)
         z.append((fit.beta - beta) / np.sqrt(np.diag(fit.covariance)))
-        assert "noise of the logged accelerations" in "\n".join(found.report.format_lines())
+        assert "noise of the logged accelerations" in "\n".join(result.report.format_lines())
     assert max(cutoffs[1::2]) < 0.8 * min(cutoffs[::2])
     assert np.sqrt(np.mean(np.square(z))) < 1.6

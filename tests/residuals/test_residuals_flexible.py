@@ -47,14 +47,14 @@ def fold(rows: int = ROWS) -> np.ndarray:
     "memory", [0.1, *(pytest.param(x, marks=pytest.mark.rotating) for x in (0.0, 0.03, 0.2))]
 )
 def test_noise_of_any_colour_is_not_predicted(memory: float) -> None:
-    found = [
+    values = [
         fit_nonparametric_baseline(generate_function_sets(measured(s)), noise(s, memory), fold())
         for s in range(4)
     ]
-    assert np.mean([each.share for each in found]) < 0.03
-    assert np.mean([each.is_significant and each.share > 0.05 for each in found]) < 0.1
+    assert np.mean([each.share for each in values]) < 0.03
+    assert np.mean([each.is_significant and each.share > 0.05 for each in values]) < 0.1
     if memory < 0.1:
-        assert max(each.share for each in found) < 0.05
+        assert max(each.share for each in values) < 0.05
 
 
 @with_cases(
@@ -70,12 +70,12 @@ def test_functions_of_what_was_measured_are_predicted(function) -> None:
     m = measured(1)
     known = function(m)
     known = (known - known.mean()) / known.std()
-    found = fit_nonparametric_baseline(
+    fit = fit_nonparametric_baseline(
         generate_function_sets(m), 3.0 * (known + noise(1)) + 7.0, fold()
     )
-    assert found.share > 0.35 and found.is_significant
-    assert found.prediction.mean() == pytest.approx(7.0, abs=0.3)
-    assert np.corrcoef(found.prediction, known)[0, 1] > 0.85
+    assert fit.share > 0.35 and fit.is_significant
+    assert fit.prediction.mean() == pytest.approx(7.0, abs=0.3)
+    assert np.corrcoef(fit.prediction, known)[0, 1] > 0.85
 
 
 def test_a_row_is_predicted_from_others() -> None:
@@ -94,11 +94,10 @@ def test_a_row_is_predicted_from_others() -> None:
 def test_the_set_that_suffices_is_told_and_the_answer_is_the_same_twice() -> None:
     m = measured(2)
     y = np.sin(4.0 * m.q[:, 4]) + 0.3 * noise(2)
-    found = fit_nonparametric_baseline(generate_function_sets(m), y, fold())
-    assert max(found.share_by_set, key=lambda name: found.share_by_set[name]) == "4"
+    fit = fit_nonparametric_baseline(generate_function_sets(m), y, fold())
+    assert max(fit.share_by_set, key=lambda name: fit.share_by_set[name]) == "4"
     np.testing.assert_array_equal(
-        found.prediction,
-        fit_nonparametric_baseline(generate_function_sets(m), y, fold()).prediction,
+        fit.prediction, fit_nonparametric_baseline(generate_function_sets(m), y, fold()).prediction
     )
 
 
@@ -109,7 +108,7 @@ def test_nothing_is_said_of_few_rows_or_a_constant() -> None:
         == 0.0
     )
     m = measured(4, rows=300)
-    found = fit_nonparametric_baseline(generate_function_sets(m), np.full(300, 2.0), fold(300))
-    assert found.share == 0.0 and not found.is_significant
-    np.testing.assert_array_equal(found.prediction, np.full(300, 2.0))
+    fit = fit_nonparametric_baseline(generate_function_sets(m), np.full(300, 2.0), fold(300))
+    assert fit.share == 0.0 and not fit.is_significant
+    np.testing.assert_array_equal(fit.prediction, np.full(300, 2.0))
     assert fit_nonparametric_baseline({}, noise(4), fold()).share == 0.0

@@ -21,9 +21,9 @@ BLOCK = (TIME / 0.5).astype(int)
 
 
 def lasts(residual: np.ndarray) -> float:
-    found = estimate_recurring_share(TIME, residual, RUN, [compute_noise_memory(30.0)] * 2)
-    assert found is not None
-    return found
+    fit = estimate_recurring_share(TIME, residual, RUN, [compute_noise_memory(30.0)] * 2)
+    assert fit is not None
+    return fit
 
 
 def noise(seed: int = 3) -> np.ndarray:

@@ -14,20 +14,20 @@ NUMBERS = [*b"1e300 -1e16 nan -inf 0 -1 1e-320 1e308 0x10 1_0 1,5 x".split(), b"
 
 def check_spoilt(data: bytes, path: Path, draws: int = 20) -> None:
     """Each mutant of the file is a robot, or one line that begins with the file; in 200 MB, 5 s."""
-    draw, told = random.Random(f"{path.name} {len(data)}"), 0
+    draw, text = random.Random(f"{path.name} {len(data)}"), 0
     for _ in range(draws):
         path.write_bytes(spoilt(data, draw))
         before, begun = most_memory(), time.process_time()
         try:
             assert read_robot(path).moving_joints
         except ModelerError as error:
-            told += 1
+            text += 1
             line = str(error)
             assert line.startswith(str(path)), line
             assert len(line.splitlines()) == 1 and len(line) < LONGEST, line
         assert most_memory() - before < 200e6
         assert time.process_time() - begun < 5
-    assert told > 0
+    assert text > 0
 
 
 def most_memory() -> float:

@@ -52,40 +52,40 @@ def message_of(text: bytes | str, path: Path) -> str:
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(RobotError) as error:
         read_robot(path)
-    told = str(error.value)
-    assert told.startswith(str(path)), told
-    assert len(told.splitlines()) == 1, told
-    return told
+    result = str(error.value)
+    assert result.startswith(str(path)), result
+    assert len(result.splitlines()) == 1, result
+    return result
 
 
 @pytest.mark.parametrize(
     ("old", "new", "expected"), [pytest.param(*row[1:], id=row[0]) for row in BROKEN]
 )
 def test_mistakes_are_told_with_their_place(old: str, new: str, expected: str, tmp_path: Path):
-    told = message_of(edited(ARM, (old, new)), tmp_path / "arm.urdf")
-    assert re.search(expected, told), told
-    assert re.search(r": line \d+: ", told), told
+    text = message_of(edited(ARM, (old, new)), tmp_path / "arm.urdf")
+    assert re.search(expected, text), text
+    assert re.search(r": line \d+: ", text), text
 
 
 @with_cases(
-    "text, told",
+    "text, message",
     ("<sdf version='1.7'><model name='a'/></sdf>", "SDF"),
     ("<html><body/></html>", "URDF"),
     ("<robot name='a'><!-- <link name='b'/> --></robot>", "line 1: <robot> has no link"),
     ('<robot xmlns:xacro="x"><xacro:include filename="a"/></robot>', "> .*/arm.urdf$"),
 )
-def test_other_formats_are_named(text: str, told: str, tmp_path: Path):
+def test_other_formats_are_named(text: str, message: str, tmp_path: Path):
     path = tmp_path / ("arm.urdf.xacro" if "xacro" in text else "arm.urdf")
-    assert re.search(told, message_of(text, path))
+    assert re.search(message, message_of(text, path))
 
 
 def test_what_can_be_read_is_read(tmp_path: Path):
     """A link without inertial, an axis that is not of length 1, an impossible inertia: reported."""
     path = tmp_path / "arm.urdf"
     path.write_text(edited(ARM, (INERTIA, INERTIA.replace('izz="0.001"', 'izz="0.5"'))))
-    told = " ".join(read_robot(path).readings)
+    text = " ".join(read_robot(path).readings)
     for words in ("no inertia is", "not of length 1", "principal moments 0.001, 0.001, 0.5 kg m2"):
-        assert words in told
+        assert words in text
 
 
 LAUGHS = "".join(f'<!ENTITY l{i + 1} "{f"&l{i};" * 10}">' for i in range(12))
@@ -134,8 +134,8 @@ def test_bombs_are_refused_in_bounded_memory(tmp_path: Path):
     for path in paths:
         path.unlink()
     assert done.returncode == 0, done.stderr[-2000:]
-    told = done.stdout.splitlines()
-    assert [line.partition(":")[0] for line in told] == [str(path) for path in paths], told
+    lines = done.stdout.splitlines()
+    assert [line.partition(":")[0] for line in lines] == [str(path) for path in paths], lines
 
 
 SPOILT = ("ur5_robot", "panda", "allegro_left_hand", "talos_left_arm")

@@ -266,7 +266,7 @@ def read(mdh, more="", head=""):
 
 
 @pytest.mark.parametrize(
-    ("mdh", "told"),
+    ("mdh", "text"),
     [
         # Craig's table in the place of Khalil's: lengths where antecedents stand
         ('columns = ["j","a","alpha","d","theta"]\nrows = [["1",0,0,0,"q1"], ["2",0.43,0,0,"q2"]]',
@@ -306,8 +306,8 @@ def read(mdh, more="", head=""):
          'rows = [["1","0","q1"], ["2","7","q2"]]', 'row "2", column parent .. got "7"'),
     ],
 )  # fmt: skip
-def test_a_table_of_another_convention_is_told_with_the_line_to_write(mdh, told):
-    check_mistake(HEAD + "[mdh]\n", "[mdh]\n", f"[mdh]\n{mdh}\n", f"[mdh] .. {told}")
+def test_a_table_of_another_convention_is_told_with_the_line_to_write(mdh, text):
+    check_mistake(HEAD + "[mdh]\n", "[mdh]\n", f"[mdh]\n{mdh}\n", f"[mdh] .. {text}")
 
 
 @with_cases(
@@ -359,9 +359,9 @@ def test_the_table_is_shown_and_kept_in_its_letters(convention, tmp_path):
         ["3", 0, 0, 0.25, "-q3 + pi/4", 0],
     ]
     robot = parse_robot_text(file(convention, columns, rows), "arm")
-    told = _tabulate_dh_rows(robot)
-    head = [name for name, _ in told.columns]
-    again = file(convention, head, [list(row) for row in told.rows])
+    result = _tabulate_dh_rows(robot)
+    head = [name for name, _ in result.columns]
+    again = file(convention, head, [list(row) for row in result.rows])
     assert parse_robot_text(again, "again").joints[:3] == robot.joints[:3]
     assert ("parent" in head) == (convention == "craig")
     assert build_table_head(robot)[-1] == "q"
@@ -413,7 +413,7 @@ def test_what_is_no_degree_is_told(written):
 
 
 @with_cases(
-    "written, text, told",
+    "written, text, message",
     ("1.5708", "pi/2", "1.5708 is pi/2"),
     ("-1.57", "-pi/2", "-1.57 is -pi/2"),
     ('"q1 - 1.5708"', "q1 - pi/2", "1.5708 is pi/2"),
@@ -432,14 +432,14 @@ def test_what_is_no_degree_is_told(written):
     ('"q1 + 1e-12"', "q1", ""),
     ('"-q1 - 3.141592653589793"', "-q1 - pi", ""),
 )
-def test_a_rounded_angle_is_exact_and_told(written, text, told):
+def test_a_rounded_angle_is_exact_and_told(written, text, message):
     """But for one that is declared, as a measured one is; what is exact already needs no word."""
     moves = "q1" in written
     cells = f"0, {written}" if moves else f'{written}, "q1"'
     robot = read(f'columns = ["j", "alpha", "theta"]\nrows = [["1", {cells}]]')
     joint = robot.joints[0]
     assert (joint.theta if moves else joint.alpha).text == text
-    assert told in "".join(robot.readings) and bool(told) == bool(robot.readings)
+    assert message in "".join(robot.readings) and bool(message) == bool(robot.readings)
 
 
 def test_a_rounded_angle_of_a_relation_is_exact_too():

@@ -273,8 +273,8 @@ def test_what_pinocchio_reads_of_a_mutant_is_what_is_read(tmp_path: Path) -> Non
             for joint in moving:
                 theirs = model.joints[model.getJointId(joint.name)]
                 at[joint.name] = x = float(rng.uniform(-1, 1))
-                own = [np.cos(x), np.sin(x)] if theirs.nq == 2 else [x]
-                q[theirs.idx_q : theirs.idx_q + theirs.nq] = own
+                actual = [np.cos(x), np.sin(x)] if theirs.nq == 2 else [x]
+                q[theirs.idx_q : theirs.idx_q + theirs.nq] = actual
             pin.forwardKinematics(model, data, q)
             theirs = np.zeros(4)
             for inertia, pose in zip(model.inertias, data.oMi, strict=True):

@@ -278,8 +278,8 @@ def test_bodies_without_values_have_no_prior():
     assert {n[1:] for n in robot.parameters if n.startswith("M") and n[1:].isdigit()} == {"3", "5"}
     assert robot.links == {"2": ()}
     assert 'no inertia is stated of "a_link"; they weigh nothing' in made.notes
-    told = 'no values of "d_link", "marker", which move as one with such a body'
-    assert told in made.notes
+    text = 'no values of "d_link", "marker", which move as one with such a body'
+    assert text in made.notes
     assert robot.frames["flange"].row == "5" and robot.frames["flange"].joint == ""
 
 

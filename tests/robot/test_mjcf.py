@@ -191,12 +191,12 @@ LOOP = edited(
 def test_connect_is_a_meeting(tmp_path: Path) -> None:
     section = '<equality><connect name="pin" body1="tip" body2="rod" anchor="0 0 0.1"/></equality>'
     tree = read(tmp_path, edited(LOOP, ("</mujoco>", section + "</mujoco>")))
-    (meeting,) = tree.loop_closures
-    assert (meeting.name, meeting.body, meeting.other) == ("pin", "tip", "rod")
+    (crossover,) = tree.loop_closures
+    assert (crossover.name, crossover.body, crossover.other) == ("pin", "tip", "rod")
     poses = {"world": Pose()}  # where the file draws the robot, both points are one
     for joint in tree.joints:
         poses[joint.child] = poses[joint.parent] @ joint.pose
-    one, other = meeting.pose.position, meeting.other_pose.position
+    one, other = crossover.pose.position, crossover.other_pose.position
     ends = poses["tip"].transform_point(one), poses["rod"].transform_point(other)
     assert np.allclose(*ends, rtol=0, atol=1e-15)
     assert tree.home == {"pan": 0, "lift": 0.1, "roll": 0, "bend": 0, "free": 0}
@@ -206,10 +206,10 @@ def test_connect_of_sites_and_the_posture_of_a_keyframe(tmp_path: Path) -> None:
     section = '<keyframe><key name="home" qpos="0.2 0.15 0 -0.3 0.4"/></keyframe><equality>'
     section += '<connect site1="a" site2="b"/></equality>'
     tree = read(tmp_path, edited(LOOP, ("</mujoco>", section + "</mujoco>")))
-    (meeting,) = tree.loop_closures
-    assert (meeting.body, meeting.other) == ("fore", "rod")
-    assert meeting.pose.position.tolist() == [0, 0, 0.1]
-    assert meeting.other_pose.position.tolist() == [0, 0, 0]
+    (crossover,) = tree.loop_closures
+    assert (crossover.body, crossover.other) == ("fore", "rod")
+    assert crossover.pose.position.tolist() == [0, 0, 0.1]
+    assert crossover.other_pose.position.tolist() == [0, 0, 0]
     assert tree.home == {"pan": 0.2, "lift": 0.15, "roll": 0, "bend": -0.3, "free": 0.4}
     text = convert_tree(tree, "arm.xml")
     home = parse_robot_text(text.text, "arm.toml").home

@@ -183,9 +183,9 @@ class Both:
         for i, row, pose in self.links():
             if row == "0":
                 continue
-            own = np.zeros(9)
-            mujoco.mju_quat2Mat(own, self.model.body_iquat[i])
-            rotation = pose[:3, :3] @ own.reshape(3, 3)
+            actual = np.zeros(9)
+            mujoco.mju_quat2Mat(actual, self.model.body_iquat[i])
+            rotation = pose[:3, :3] @ actual.reshape(3, 3)
             mass, c = self.model.body_mass[i], pose[:3, :3] @ self.model.body_ipos[i] + pose[:3, 3]
             tensor = rotation @ np.diag(self.model.body_inertia[i]) @ rotation.T
             tensor += mass * (c @ c * np.eye(3) - np.outer(c, c))

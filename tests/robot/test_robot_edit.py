@@ -38,8 +38,8 @@ def test_only_effects_and_their_values_change():
     before, after = tomllib.loads(ARM), tomllib.loads(robot.text)
     for key in ("name", "gravity", "mdh"):
         assert before[key] == after[key]
-    kept = parse_robot_text(replace_effects(ARM, {"back_emf": "all"}), "changed").parameters
-    assert kept == {"ZZ1": 0.5, "Fv1": 2.0, "M2": 1.5}  # viscous friction by another name
+    stored = parse_robot_text(replace_effects(ARM, {"back_emf": "all"}), "changed").parameters
+    assert stored == {"ZZ1": 0.5, "Fv1": 2.0, "M2": 1.5}  # viscous friction by another name
 
 
 @pytest.mark.parametrize("name", list_builtin_robots())

@@ -321,15 +321,15 @@ TABLES = {
 
 
 @pytest.mark.parametrize(
-    ("text", "old", "new", "told"),
+    ("text", "old", "new", "message"),
     [
         pytest.param(text, *row[1:], id=f"{table}: {row[0]}")
         for table, (text, rows) in TABLES.items()
         for row in rows
     ],
 )
-def test_a_mistake_is_told(text, old, new, told):
-    check_mistake(text, old, new, told)
+def test_a_mistake_is_told(text, old, new, message):
+    check_mistake(text, old, new, message)
 
 
 def test_the_good_files_are_read():
@@ -339,22 +339,22 @@ def test_the_good_files_are_read():
 
 def test_a_row_before_its_antecedent_is_told_where_to_go():
     first, last = '["1", "0", 1, 0, 0, 0, "q1", 0],', '["E", "4"'
-    told = 'row "2", column a: got "1" .. move row "1" above row "2"'
-    check_mistake(ARM.replace(first, "", 1), last, first + last, told)
+    text = 'row "2", column a: got "1" .. move row "1" above row "2"'
+    check_mistake(ARM.replace(first, "", 1), last, first + last, text)
 
 
 ROCK = 'name = "rock"\ngravity = [0, 0, 0]\n[mdh]\ncolumns = ["j", "sigma", "theta"]\nrows = ['
 
 
 @with_cases(
-    "rows, told",
+    "rows, text",
     ('["1", 2, 0]', '[mdh], row "1": no row of the table moves'),
     ("", "[mdh], rows: the table is empty; write one row"),
     ('["1", 0, "q1"], ["1R", 0, "q1R"]', 'row "1R": the name makes XX1R a parameter, which is'),
     ('["1", 0, "q1"], ["X1", 0, "qX1"]', 'row "X1" .. MX1 mean two parameters, with row "1"'),
 )
-def test_a_table_that_is_no_robot_is_refused(rows, told):
-    check_mistake(f"{ROCK}x]", "x]", f"{rows}]", told)
+def test_a_table_that_is_no_robot_is_refused(rows, text):
+    check_mistake(f"{ROCK}x]", "x]", f"{rows}]", text)
 
 
 def test_unknown_names_suggest_built_in_robots():

@@ -44,8 +44,8 @@ def test_the_rest_lists_what_there_is():
 
 
 def test_advice_that_is_a_relation_can_be_read():
-    for told in INSTEAD:
-        for relation in re.findall(r'q(\d) = "([^"]+)"', told):
+    for message in INSTEAD:
+        for relation in re.findall(r'q(\d) = "([^"]+)"', message):
             text = CRANK.split("[loops]")[0]
             other = {"4": "3", "2": "1"}[relation[0]]
             joint = '  ["4", "0", 0, 0, 0, 0, 0, "q4", 0],\n]\n' if relation[0] == "4" else "]\n"

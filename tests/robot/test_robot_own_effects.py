@@ -69,8 +69,8 @@ def test_the_definition_stays_when_its_use_goes():
     assert [effect.id for effect in bare.own_effects] == ["eddy_brake", "wave", "hook"]
     assert [use.effect for use in bare.effects] == ["viscous"]
     assert bare.parameters == {"M1": 2.0}  # values of parameters that are gone go with them
-    kept = replace_effects(OWN_EFFECTS, {"eddy_brake": [{"joint": "2", "c": 0.5, "w": 0.1}]})
-    assert parse_robot_text(kept, "arm").parameters == {"Keb2": 3.0, "M1": 2.0}
+    stored = replace_effects(OWN_EFFECTS, {"eddy_brake": [{"joint": "2", "c": 0.5, "w": 0.1}]})
+    assert parse_robot_text(stored, "arm").parameters == {"Keb2": 3.0, "M1": 2.0}
 
 
 def test_an_effect_is_put_on_one_joint_more():
@@ -122,9 +122,9 @@ TABLE = "{low = [-1], high = [1], cells = [2], values = [0, 0, 0, 1, 1]}"
 def test_a_message_never_shows_a_whole_table() -> None:
     cells = [float(x) for x in np.linspace(0, 1, 3000)]
     for wrong in (f"{{low = {cells}}}", f"{cells}", TABLE.replace("[2]", str(cells))):
-        with pytest.raises(RobotError) as told:
+        with pytest.raises(RobotError) as result:
             parse_robot_text(LAW.replace(TABLE, wrong), "arm")
-        assert len(str(told.value)) < 500
+        assert len(str(result.value)) < 500
 
 
 def test_the_largest_table_is_read() -> None:

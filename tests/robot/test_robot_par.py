@@ -137,10 +137,10 @@ def test_letters_and_numbers():
     assert values["R4"] == 0.1 and values["gam4"] == 0.3
     assert values["L"] != values["RL1"]
     assert robot.name == "my-arm" and robot.title == "my arm"
-    told = "\n".join(converted.notes)
-    assert "no values in the file: RL1, L" in told
-    assert "-1.5708 is -pi/2" in told and "1.571 is pi/2" in told
-    assert "th1, th2, r3" in told
+    text = "\n".join(converted.notes)
+    assert "no values in the file: RL1, L" in text
+    assert "-1.5708 is -pi/2" in text and "1.571 is pi/2" in text
+    assert "th1, th2, r3" in text
     assert "# no value in the file" in converted.text
     assert all(note in robot.notes for note in converted.notes)
 
@@ -165,9 +165,9 @@ def test_names_that_mean_something_else_are_changed():
     lists = {"Ant": "0,1,2,3,4,5", "d": "0,lambda,M2,double,qd1,β", "Theta": "t1,t2,t3,t4,t5,t6"}
     robot, converted = convert(par_text(lists))
     assert [joint.d.text for joint in robot.joints] == "0 lambda_ M2_ double_ qd1_ s1".split()
-    told = "\n".join(converted.notes)
+    text = "\n".join(converted.notes)
     for was in ("lambda", "M2", "double", "qd1", "β"):
-        assert f"{was} is called" in told
+        assert f"{was} is called" in text
 
 
 def test_bodies_with_and_without_parameters():
@@ -184,13 +184,13 @@ def test_bodies_with_and_without_parameters():
     uses = {use.effect: use.joints for use in robot.effects}
     assert uses.pop("offset") == ("1", "2")  # of the joints with a motor and friction
     assert uses == {"rotor_inertia": ("1",), "viscous": ("1", "2", "3"), "coulomb": ("2",)}
-    told = "\n".join(converted.notes)
-    assert "ZZ1 (there J)" in told and "IA3: left out" in told
-    assert "added to the joints with friction: offset (1, 2)" in told
+    text = "\n".join(converted.notes)
+    assert "ZZ1 (there J)" in text and "IA3: left out" in text
+    assert "added to the joints with friction: offset (1, 2)" in text
 
 
 @with_cases(
-    "lists, line, told",
+    "lists, line, message",
     ({"FX": "0,FX2"}, "", "FX are left out"),
     ({"W0": "0,0,w"}, "", "W0 are left out"),
     ({"VP0": "0,0,1"}, "", "VP0 are left out"),
@@ -200,10 +200,10 @@ def test_bodies_with_and_without_parameters():
     ({}, "Type = 2", "Type is"),
     ({"M": "M0,M1,M2"}, "is_floating = True", "stands still here"),
 )
-def test_what_is_not_carried_over_is_told(lists, line, told):
+def test_what_is_not_carried_over_is_told(lists, line, message):
     basis = {"Ant": "0,1", "Theta": "t1,t2", "QDP": "QDP1,QDP2", "WP0": "0,0.0,0"}
     text = par_text(basis | lists).replace("Type = 0", line or "Type = 0")
-    assert sum(told in note for note in convert(text)[1].notes) == 1
+    assert sum(message in note for note in convert(text)[1].notes) == 1
     for kind in "01":
         _, plain = convert(par_text(basis).replace("Type = 0", f"Type = {kind}"))
         assert not any("left out" in note or "Type is" in note for note in plain.notes)
@@ -402,13 +402,13 @@ MISTAKES = [
 ]
 
 
-@pytest.mark.parametrize(("old", "new", "told"), MISTAKES)
-def test_mistakes_are_told_in_one_line(old, new, told):
+@pytest.mark.parametrize(("old", "new", "text"), MISTAKES)
+def test_mistakes_are_told_in_one_line(old, new, text):
     assert old in GOOD
     with pytest.raises(RobotError) as error:
         convert(GOOD.replace(old, new))
     message = str(error.value)
-    assert message.startswith("arm.par") and told in message and "\n" not in message
+    assert message.startswith("arm.par") and text in message and "\n" not in message
 
 
 @pytest.mark.parametrize("data", [b"", b"\x00\x01\x02", b"<robot/>"])

@@ -52,8 +52,8 @@ def test_its_values_stay_with_it_and_leave_with_it() -> None:
     values = {"Fv21": 0.3, "Fs21": 0.4}
     lines = "\n".join(["[parameters]", *(f"{name} = {value}" for name, value in values.items())])
     text = with_lines('passive_friction = ["21"]').replace("[parameters]", lines)
-    kept = replace_effects(text, {"passive_friction": ["21"], "viscous": ["11"]})
-    assert values.items() <= parse_robot_text(kept, "five-bar").parameters.items()
+    stored = replace_effects(text, {"passive_friction": ["21"], "viscous": ["11"]})
+    assert values.items() <= parse_robot_text(stored, "five-bar").parameters.items()
     gone = parse_robot_text(replace_effects(text, {}), "five-bar").parameters
     assert gone and not values.keys() & gone.keys()
 

@@ -39,6 +39,6 @@ def test_edits_keep_the_tool():
 
 
 def test_a_tool_of_two_ends_says_which():
-    told = "the robot has 2 ends, 4, 5; say which row carries the tool"
-    with pytest.raises(RobotError, match=told):
+    text = "the robot has 2 ends, 4, 5; say which row carries the tool"
+    with pytest.raises(RobotError, match=text):
         tool("z = 1", BRANCH)

@@ -50,16 +50,16 @@ def test_angles_within_lengths_are_fine(cell):
 
 def test_lengths_in_mm_are_told():
     rows = '["1", "q1", 0, 60], ["2", "q2", 0, "D3"]'
-    (told,) = arm(rows, further="[symbols]\nD3 = 400").readings
-    assert 'row "2", column d, is 400 m' in told and '"400 mm"' in told
+    (text,) = arm(rows, further="[symbols]\nD3 = 400").readings
+    assert 'row "2", column d, is 400 m' in text and '"400 mm"' in text
     assert arm('["1", "q1", 0, 19]').readings == ()
     assert arm('["1", "q1", 0, "60 m"]').readings == ()
 
 
 def test_a_variable_in_two_rows_is_told_unless_it_is_meant():
     slip = '["1", "q1", 0, 0], ["2", "q2", 0, 0.3], ["3", "q2", 0, 0.4]'
-    (told,) = arm(slip).readings
-    assert told.startswith('row "3" moves with q2') and "write q3" in told
+    (text,) = arm(slip).readings
+    assert text.startswith('row "3" moves with q2') and "write q3" in text
     assert arm(slip.replace('["3", "q2"', '["3", "-q2"')).readings == ()
     meant = re.sub(r"(\d)\]", r"\1, 1]", slip).replace("0.4, 1]", "0.4, 0]")
     assert arm(meant, '"j", "theta", "alpha", "d", "mu"').readings == ()

@@ -42,8 +42,8 @@ def positions(tree: BodyTree, seed: int) -> dict[str, float]:
 def soft_limits(data: bytes, name: str) -> tuple[float, float]:
     """Of the safety_controller, by the standard library; Pinocchio does not read it."""
     joint = ElementTree.fromstring(data).find(f"joint[@name='{name}']/safety_controller")
-    given = {} if joint is None else joint.attrib
-    low, high = (float(given.get(f"soft_{end}_limit", 0.0)) for end in ("lower", "upper"))
+    inputs = {} if joint is None else joint.attrib
+    low, high = (float(inputs.get(f"soft_{end}_limit", 0.0)) for end in ("lower", "upper"))
     return (low, high) if low < high else (-math.inf, math.inf)
 
 
@@ -102,12 +102,12 @@ def test_right_angles_are_exact():
     elbow = joint_of(tree, "elbow").pose
     assert np.array_equal(elbow.position, [0.3, 0, 0])
     assert elbow.rotation[2, 0] == -math.sqrt(0.5)
-    told = [note for note in tree.notes if "exact here" in note]
-    assert len(told) == 1 and "1.5708 is pi/2" in told[0] and "0.7854 is pi/4" in told[0]
+    lines = [note for note in tree.notes if "exact here" in note]
+    assert len(lines) == 1 and "1.5708 is pi/2" in lines[0] and "0.7854 is pi/4" in lines[0]
     assert any("1 lengths, angles" in note for note in tree.notes)
-    kept = joint_of(read(exact_decimals=True), "shoulder").pose.rotation
-    assert kept[2, 2] == pytest.approx(math.cos(1.5708), rel=1e-9)
-    assert kept[2, 2] != 0
+    stored = joint_of(read(exact_decimals=True), "shoulder").pose.rotation
+    assert stored[2, 2] == pytest.approx(math.cos(1.5708), rel=1e-9)
+    assert stored[2, 2] != 0
 
 
 def test_elements_of_the_schema():
@@ -159,8 +159,8 @@ def test_a_floating_base_stands_still():
 
 def test_other_joints_are_refused_cut_off_or_held():
     text = edited(ARM, FREE)
-    told = 'arm.urdf: line 22: joint "elbow": floating joints are.*--lock elbow=0'
-    with pytest.raises(RobotError, match=told):
+    message = 'arm.urdf: line 22: joint "elbow": floating joints are.*--lock elbow=0'
+    with pytest.raises(RobotError, match=message):
         cut_tree(read(text))
     held = cut_tree(read(text), locks={"elbow": 0})
     assert len(collect_moving_links(held)) == 4
@@ -222,7 +222,7 @@ def test_followers_with_an_offset_stop_with_their_leader():
 
 
 def test_cuts_name_what_they_do_not_find():
-    for cuts, told in (
+    for cuts, text in (
         ({"base": "uper"}, r'--base: "uper": no link of that name in arm \(did you mean "upper"'),
         ({"tip": "elbow"}, '--tip: "elbow": is a joint; expected a link'),
         ({"locks": {"elbo": 1}}, r'"elbo": no joint of .*\(did you mean "elbow".* of .*finger'),
@@ -232,7 +232,7 @@ def test_cuts_name_what_they_do_not_find():
         ({"locks": {"elbow": "far"}}, "expected a position in rad or m"),
         ({"locks": {"elbow": "1/0"}}, "expected a position in rad or m"),
     ):
-        with pytest.raises(RobotError, match=told):
+        with pytest.raises(RobotError, match=text):
             cut_tree(read(), **cuts)
     assert parse_lock_values(["a=b=30 deg", "c = 1"]) == {"a=b": "30 deg", "c": "1"}
     for texts in (["elbow"], ["=1"], ["a=1", "a=2"]):
@@ -265,7 +265,7 @@ INERTIA = 'ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"'
 
 
 @with_cases(
-    "mass, inertia, told",
+    "mass, inertia, message",
     ("0", INERTIA, "mass 0"),
     ("-1", INERTIA, "mass -1 kg is negative"),
     ("1", INERTIA.replace("0.001", "0"), "inertia 0"),
@@ -276,16 +276,16 @@ INERTIA = 'ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"'
     # 0.0014 + 0.0014 > 0.0026: within what the printed digits say.
     ("1", INERTIA.replace('izz="0.001"', 'izz="0.003"'), ""),
 )
-def test_doubted_bodies_are_told(mass: str, inertia: str, told: str):
+def test_doubted_bodies_are_told(mass: str, inertia: str, message: str):
     text = edited(ARM, (INERTIA, inertia), ('mass value="0.5"', f'mass value="{mass}"'))
     tree = cut_tree(read(text))
-    assert told in tree.unreliable_bodies.get("flange", "") and bool(told) == bool(
+    assert message in tree.unreliable_bodies.get("flange", "") and bool(message) == bool(
         tree.unreliable_bodies
     )
     notes = [note for note in notes_of(text) if '"flange"' in note and "move as one" not in note]
-    if told and told != "mass 0":
-        assert len(notes) == 1 and told in notes[0]
-        told = [note for note in notes_of(text, base="flange") if "gravity" not in note]
-        assert not any('"flange"' in note for note in told)
+    if message and message != "mass 0":
+        assert len(notes) == 1 and message in notes[0]
+        message = [note for note in notes_of(text, base="flange") if "gravity" not in note]
+        assert not any('"flange"' in note for note in message)
     else:
         assert not notes

@@ -110,8 +110,8 @@ class PinocchioModel:
     def state(self, q, *others):
         full = [np.zeros(self.model.nv) for _ in range(1 + len(others))]
         full[0][self.at] = self.A @ q + self.o
-        for x, given in zip(full[1:], others, strict=True):
-            x[self.at] = self.A @ given
+        for x, entry in zip(full[1:], others, strict=True):
+            x[self.at] = self.A @ entry
         return pin.integrate(self.model, pin.neutral(self.model), full[0]), *full[1:]
 
     def torque(self, q, qd, qdd):

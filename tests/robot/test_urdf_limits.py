@@ -63,7 +63,7 @@ def test_a_speed_that_is_none_is_told_as_assumed(velocity: str) -> None:
 
 
 @with_cases(
-    "limit, kind, told, stated",
+    "limit, kind, text, stated",
     ('lower="1" upper="-1" velocity="2"', "revolute", "leave no range", False),
     ('lower="-inf" upper="1" velocity="2"', "revolute", "infinite on one side", True),
     ('lower="-inf" upper="inf" velocity="2"', "revolute", "range -pi to pi", True),
@@ -71,11 +71,11 @@ def test_a_speed_that_is_none_is_told_as_assumed(velocity: str) -> None:
     ('velocity="2"', "continuous", "range -pi to pi", True),
     ('lower="-1" upper="1" velocity="2"', "continuous", "continuous has no range", True),
 )
-def test_ranges_that_are_none_are_told(limit: str, kind: str, told: str, stated: bool) -> None:
+def test_ranges_that_are_none_are_told(limit: str, kind: str, text: str, stated: bool) -> None:
     """What leaves no range is no limit; an open one is -pi to pi, and the line says so."""
     robot, made = convert(limit, kind)
     assert ("1" in robot.limits) == stated
-    assert any(told in note and '"j1"' in note for note in made.notes) or not told
+    assert any(text in note and '"j1"' in note for note in made.notes) or not text
     assert ("# assumed: range" in made.text) == stated
 
 

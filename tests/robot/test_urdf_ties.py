@@ -246,8 +246,8 @@ def test_frames_that_meet_stand_where_the_file_has_them(kind: str, seed: int) ->
     )
     axis = axis / np.linalg.norm(axis)
     for k, link in enumerate("bc"):
-        own = origin_pose(places[k], turns[k])
-        expected = bodies[link] @ Pose(own[:3, 3], own[:3, :3])
+        local = origin_pose(places[k], turns[k])
+        expected = bodies[link] @ Pose(local[:3, 3], local[:3, :3])
         got = rows[f"P1{'ab'[k]}"]
         assert np.allclose(got[:3, 3], expected.position, rtol=0, atol=1e-9)
         if kind == "fixed":

@@ -105,7 +105,7 @@ def test_what_ros_reads_is_read_with_its_lines_and_bytes():
 
 
 @with_cases(
-    "data, told",
+    "data, text",
     (b"  \n", "is empty"),
     ("<a/>".encode("utf-16"), "UTF-16"),
     (b'\n<?xml version="1.0" encoding="koi8-r"?><a/>', 'line 2: encoding="koi8-r"; save'),
@@ -117,8 +117,8 @@ def test_what_ros_reads_is_read_with_its_lines_and_bytes():
     (b"<!DOCTYPE a>\n<a/>", "line 1: <!DOCTYPE> and its entities are not read"),
     (b"<a>" * 300, "more than 200000 elements, or than 256 inside each other"),
 )
-def test_what_is_refused_is_told_in_one_line(data: bytes, told: str):
-    with pytest.raises(RobotError, match=told) as error:
+def test_what_is_refused_is_told_in_one_line(data: bytes, text: str):
+    with pytest.raises(RobotError, match=text) as error:
         parse_xml(data, "bad.urdf")
     assert str(error.value).startswith("bad.urdf: ")
     assert len(str(error.value).splitlines()) == 1

@@ -62,14 +62,14 @@ def spoilt(links: Sequence[Link], seed: int, share: float = 0.3) -> tuple[Link, 
     def wrong(value: float) -> float:
         return float(value) * (1.0 + draw.uniform(-share, share))
 
-    found = []
+    values = []
     for link in links:
         stated = {k: wrong(getattr(link, k)) for k in ("mass", "damping", "friction", "armature")}
         ratio = wrong(1.0)  # one for all moments of a body: it could be built
         inertia = tuple(float(x) * ratio for x in link.inertia)
         centre = tuple(map(wrong, link.centre))
-        found.append(dataclasses.replace(link, **stated, inertia=inertia, centre=centre))
-    return tuple(found)
+        values.append(dataclasses.replace(link, **stated, inertia=inertia, centre=centre))
+    return tuple(values)
 
 
 def _text(values: Sequence[float]) -> str:
@@ -185,13 +185,13 @@ def logged(truth, believed, links, seed, seconds, rate=1000.0):
 def sines(links: Sequence[Link], seed: int, time: np.ndarray) -> np.ndarray:
     """(3, n, joints) positions, speeds, accelerations of sums of five sines, within the ranges."""
     draw = np.random.default_rng(seed)
-    found = np.zeros((3, len(time), len(links)))
+    actual = np.zeros((3, len(time), len(links)))
     for j, link in enumerate(links):
         frequencies = 2 * np.pi * (0.08 * np.arange(1, 6) + draw.uniform(0.0, 0.03, 5))
         weights = draw.normal(size=5) / np.arange(1, 6) ** 0.5
         phases = draw.uniform(0, 2 * np.pi, 5)
         turn = frequencies * time[:, None] + phases
-        own = np.stack(
+        value = np.stack(
             [
                 np.sin(turn) @ weights,
                 np.cos(turn) @ (weights * frequencies),
@@ -199,12 +199,12 @@ def sines(links: Sequence[Link], seed: int, time: np.ndarray) -> np.ndarray:
             ]
         )
         low, high = link.range
-        room = 0.45 * (high - low) / np.ptp(own[0])
-        fast = 0.8 * link.speed / np.abs(own[1]).max()
-        own *= min(2 * room, fast)
-        own[0] += 0.5 * (low + high) - 0.5 * (own[0].max() + own[0].min())
-        found[:, :, j] = own
-    return found
+        room = 0.45 * (high - low) / np.ptp(value[0])
+        fast = 0.8 * link.speed / np.abs(value[1]).max()
+        value *= min(2 * room, fast)
+        value[0] += 0.5 * (low + high) - 0.5 * (value[0].max() + value[0].min())
+        actual[:, :, j] = value
+    return actual
 
 
 def followed(xml, links, log, seconds=1.0):
@@ -223,7 +223,7 @@ def followed(xml, links, log, seconds=1.0):
     step = float(np.median(np.diff(log["time"])))
     every, length = round(step / model.opt.timestep), round(seconds / step)
     qd = savgol_filter(q, 21, 3, deriv=1, delta=step, axis=0)
-    found = []
+    values = []
     for first in range(length // 2, len(q) - length, length):
         mujoco.mj_resetData(model, data)
         data.qpos[:], data.qvel[:] = q[first], qd[first]
@@ -232,5 +232,5 @@ def followed(xml, links, log, seconds=1.0):
             data.ctrl[:] = tau[first + k]
             mujoco.mj_step(model, data, every)
             errors[k] = data.qpos - q[first + k + 1]
-        found.append(np.sqrt(np.mean(errors**2, axis=0)))
-    return np.array(found)
+        values.append(np.sqrt(np.mean(errors**2, axis=0)))
+    return np.array(values)

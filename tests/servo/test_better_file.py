@@ -51,16 +51,16 @@ def test_a_spoilt_file_comes_back_better(tmp_path, monkeypatch, capsys, seed):
     wrong, judge = written(tmp_path, seed)
     logs = ["log0.parquet", "log1.parquet"]
     assert main(["fit", "arm.urdf", *logs, "--map", "auto", "--out", "arm.model.json"]) == 0
-    told = capsys.readouterr()
+    out = capsys.readouterr()
     # MuJoCo's friction bends near rest: halves of the motion may differ by more than their noise.
     valid = re.search(
         r"\nValid for torque prediction(: | on similar motions only: )"
         r"cross-validated error at most ([\d.]+) % on every joint\.(.*)",
-        told.out,
+        out.out,
     )
-    assert valid and float(valid[2]) < 0.5, (seed, told.out)
+    assert valid and float(valid[2]) < 0.5, (seed, out.out)
     assert valid[1] == ": " or "between samples of low" in valid[3], (seed, valid[3])
-    assert "added to the joints: rotor_inertia, offset, of which the file says nothing" in told.err
+    assert "added to the joints: rotor_inertia, offset, of which the file says nothing" in out.err
     assert (
         main(
             ["export", "arm.model.json", "--to", "mjcf", "--like", "arm.xml", "--out", "better.xml"]
@@ -81,12 +81,12 @@ def test_a_spoilt_file_comes_back_better(tmp_path, monkeypatch, capsys, seed):
     joints = np.sqrt(np.mean(before**2, axis=0) / np.mean(after**2, axis=0))
     assert joints.min() > 5.0, (seed, joints)
     assert main(["export", "arm.model.json", "--like", "arm.urdf", "--out", "better.urdf"]) == 0
-    told = capsys.readouterr().out
+    out = capsys.readouterr().out
     assert len(
         re.findall(
             r"URDF cannot hold rotor_inertia of joint \d \(Ia\d = 0\.\d+\), about "
             r"[\d.]+ % of the torque",
-            told,
+            out,
         )
     ) == len(ARM7)
     urdfs = Path("arm.urdf").read_text(), Path("better.urdf").read_text()

@@ -126,7 +126,7 @@ def test_gains_are_put_where_they_stand():
 
 
 @with_cases(
-    "drives, told",
+    "drives, text",
     ("3 = {gain = 1}", 'there is no moving joint "3"'),
     ("1 = 2.0", "expected a table, as in [drives] 1 = {voltage"),
     ("1 = {gain = 1, ohm = 2}", 'unknown key "ohm"'),
@@ -137,11 +137,11 @@ def test_gains_are_put_where_they_stand():
     ("1 = {gain = nan}", "expected a finite number"),
     ("1 = {gain = 1}\n[drive_gains]\n1 = 2.0", "stands in [drive_gains] too"),
 )
-def test_what_is_refused(drives, told):
+def test_what_is_refused(drives, text):
     with pytest.raises(RobotError) as caught:
         robot(drives)
     line = str(caught.value)
-    assert told in line
+    assert text in line
     assert line.startswith("arm.toml: [drives]")
     assert "\n" not in line
 

@@ -25,11 +25,11 @@ def columns(q, tau, seed=None):
     rng = np.random.default_rng(seed)
     n = 400
     values = {name: rng.normal(size=(2, n)).cumsum(axis=1) * 0.01 for name in NAMES[:3]}
-    found = {"time": np.arange(n) / 200}
+    table = {"time": np.arange(n) / 200}
     for k in rng.permutation(3):
         name = NAMES[k]
-        found |= {q.format(name): values[name][0], tau.format(name): values[name][1]}
-    return found, values
+        table |= {q.format(name): values[name][0], tau.format(name): values[name][1]}
+    return table, values
 
 
 @with_cases(
@@ -41,31 +41,31 @@ def columns(q, tau, seed=None):
     ("q_{}", "{} torque [N m]"),
 )
 def test_columns_in_any_order_go_to_their_joints(arm, q, tau):
-    given, values = columns(q, tau)
-    (log,) = read_logs(arm, [given], ["auto"])
+    inputs, values = columns(q, tau)
+    (log,) = read_logs(arm, [inputs], ["auto"])
     assert np.allclose(log.q, np.column_stack([values[name][0] for name in NAMES[:3]]))
     assert np.allclose(log.tau, np.column_stack([values[name][1] for name in NAMES[:3]]))
 
 
 def test_further_joints_of_the_log_are_left_out(arm):
-    given, values = columns("joint_states.position[{}]", "joint_states.effort[{}]")
-    finger = {"joint_states.position[a_finger]": given["time"]}
-    (log,) = read_logs(arm, [{"time": given["time"]} | finger | given], ["auto"])
+    inputs, values = columns("joint_states.position[{}]", "joint_states.effort[{}]")
+    finger = {"joint_states.position[a_finger]": inputs["time"]}
+    (log,) = read_logs(arm, [{"time": inputs["time"]} | finger | inputs], ["auto"])
     assert np.allclose(log.q[:, 1], values[NAMES[1]][0])
 
 
 def test_the_guess_says_the_names(arm):
-    given, _ = columns("position/{}", "effort/{}")
-    suggested = inspect_log(given, arm).suggested_map
+    inputs, _ = columns("position/{}", "effort/{}")
+    suggested = inspect_log(inputs, arm).suggested_map
     assert f'names = {{1 = "{NAMES[0]}", 2 = "{NAMES[1]}", 3 = "{NAMES[2]}"}}\n' in suggested
     assert '"q<j>" = "position/{name}"' in suggested
     doubt = "in the order of the log: which joint is which?"
-    assert doubt not in suggested and doubt in inspect_log(given).suggested_map
+    assert doubt not in suggested and doubt in inspect_log(inputs).suggested_map
 
 
 def test_names_of_log_go_before_those_of_the_file():
-    own = parse_robot_text(load("so101").text + '\n[log]\nnames = {1 = "waist"}\n', "arm.toml")
-    assert own.log_mapping == {"names": {"1": "waist"}}
+    item = parse_robot_text(load("so101").text + '\n[log]\nnames = {1 = "waist"}\n', "arm.toml")
+    assert item.log_mapping == {"names": {"1": "waist"}}
     assert load("so101").log_mapping["names"]["5"] == "wrist_roll"
     assert load("two-link").log_mapping == {}
 

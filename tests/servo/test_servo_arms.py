@@ -38,8 +38,8 @@ def episodes(fps, count=3, seconds=15.0):
     robot = load("so101")
     rng = np.random.default_rng()
     limits = [robot.limits[joint.name] for joint in robot.joints]
-    middle = np.array([(own.lower + own.upper) / 2 for own in limits])
-    reach = np.array([(own.upper - own.lower) / 2 for own in limits]) * 0.75
+    middle = np.array([(item.lower + item.upper) / 2 for item in limits])
+    reach = np.array([(entry.upper - entry.lower) / 2 for entry in limits]) * 0.75
     t = np.arange(int(seconds * fps)) / fps
     for _ in range(count):
         w = 2 * np.pi * rng.uniform(0.08, 0.13) * np.arange(1, 6)
@@ -58,19 +58,19 @@ def fitted(compiled, folder, mapping=MAPPING):
 
 def in_sigmas(result):
     """(value - truth) / sigma of what moves a joint, and sigma over the truth."""
-    own = [(p, VALUES[p.name[:2]]) for p in result.parameters if p.name[:2] in VALUES]
-    assert len(own) == 16  # the rotors of the first two joints group
-    return {p.name: ((p.value - true) / p.sigma, p.sigma / true) for p, true in own}
+    items = [(p, VALUES[p.name[:2]]) for p in result.parameters if p.name[:2] in VALUES]
+    assert len(items) == 16  # the rotors of the first two joints group
+    return {p.name: ((p.value - true) / p.sigma, p.sigma / true) for p, true in items}
 
 
 @pytest.mark.rotating("long tests of servo")
 @pytest.mark.parametrize("fps", [30.0, pytest.param(50.0, marks=ROTATING)])
 def test_a_data_set_tells_armature_friction_and_damping(arm, tmp_path, fps):
     folder = write_dataset(tmp_path / "set", list(episodes(fps)), MOTORS, fps)
-    found = in_sigmas(fitted(arm, folder))
-    off, sure = np.array(list(found.values())).T
-    assert np.abs(off).max() < 5.0, found
-    assert np.sqrt(np.mean(off**2)) < 2.0, found
+    result = in_sigmas(fitted(arm, folder))
+    off, sure = np.array(list(result.values())).T
+    assert np.abs(off).max() < 5.0, result
+    assert np.sqrt(np.mean(off**2)) < 2.0, result
     assert sure.max() < 0.15
 
 
@@ -116,9 +116,9 @@ def test_degrees_that_may_be_parts_of_a_range_are_told(arm, reach, doubted):
     columns |= {f"observation.load[{motor}.load]": 300 * np.cos(t) for motor in MOTORS}
     lines = inspect_log(columns, arm).warnings
     assert any(EITHER in line for line in lines) == doubted
-    (found,) = build_log_maps(arm, [columns], ["auto"])
-    assert any(EITHER in line for line in found.guess_notes) == (
-        doubted and "[deg]" in found.guess_notes[0]
+    (result,) = build_log_maps(arm, [columns], ["auto"])
+    assert any(EITHER in line for line in result.guess_notes) == (
+        doubted and "[deg]" in result.guess_notes[0]
     )
-    given = {"time": t} | {f"q{j}": columns[name] for j, name in enumerate(names, 1)}
-    assert not any(EITHER in line for line in inspect_log(given, arm).warnings)
+    inputs = {"time": t} | {f"q{j}": columns[name] for j, name in enumerate(names, 1)}
+    assert not any(EITHER in line for line in inspect_log(inputs, arm).warnings)

@@ -12,8 +12,8 @@ RELATIONS = kinds_first([name for name in TIED if name not in LOOPED])
 
 def without_effects(source: Robot) -> Robot:
     """The robot with rotor inertias only, so that no energy is lost."""
-    kept = tuple(use for use in source.effects if use.effect == "rotor_inertia")
-    return dataclasses.replace(source, effects=kept)
+    rest = tuple(use for use in source.effects if use.effect == "rotor_inertia")
+    return dataclasses.replace(source, effects=rest)
 
 
 def energies(source, parameters, v, vd):

@@ -69,8 +69,8 @@ def plain():
 
 
 def without(source, *effects):
-    kept = tuple(use for use in source.effects if use.effect not in effects)
-    return dataclasses.replace(source, effects=kept)
+    rest = tuple(use for use in source.effects if use.effect not in effects)
+    return dataclasses.replace(source, effects=rest)
 
 
 def states(count=200, seed=0):
@@ -362,8 +362,8 @@ def test_random_torques_on_the_machine(clean):
     share = pushed.std(axis=0) / np.sqrt(np.mean(truth.tau**2, axis=0))
     np.testing.assert_allclose(share, 0.05, rtol=0.3)
     lag = int(0.03 * log.settings.rate)
-    kept = np.mean(pushed[lag:] * pushed[:-lag], axis=0) / pushed.var(axis=0)
-    np.testing.assert_allclose(kept, np.exp(-1), atol=0.15)
+    subset = np.mean(pushed[lag:] * pushed[:-lag], axis=0) / pushed.var(axis=0)
+    np.testing.assert_allclose(subset, np.exp(-1), atol=0.15)
     assert np.abs(truth.q - log.qc).max() < 0.05
 
 
@@ -392,8 +392,8 @@ def test_what_is_drawn_belongs_to_the_parameter_seed_alone():
     others = [values(hidden=(stribeck,), parameter_seed=k)[0] for k in range(1, 9)]
     assert all(other.values != alone.values for other in others)
     assert len({other.joint for other in others}) == 3
-    (given,) = values(hidden=(simulation.HiddenEffect("stribeck", alone.joint, {"extra": 9.0}),))
-    assert given.values == {**alone.values, "extra": 9.0}
+    (inputs,) = values(hidden=(simulation.HiddenEffect("stribeck", alone.joint, {"extra": 9.0}),))
+    assert inputs.values == {**alone.values, "extra": 9.0}
     twice = values(
         hidden=(
             simulation.HiddenEffect("motor_ripple", "1"),
@@ -512,14 +512,14 @@ def test_bristles_too_short_for_any_step():
 
 
 def test_the_command_and_its_files(tmp_path, capsys):
-    out, told, truth = (tmp_path / name for name in ("log.csv", "told.json", "truth.json"))
+    out, lines, truth = (tmp_path / name for name in ("log.csv", "told.json", "truth.json"))
     argv = ["simulate", "two-link", "--duration", "2", "--rate", "200", "--out", str(out)]
     argv += ["--hide", "temperature_friction@2", "--hide", "spring@1:stiffness=3"]
-    argv += ["--process-noise", "0.01", "--truth-out", str(truth), "--json", str(told)]
+    argv += ["--process-noise", "0.01", "--truth-out", str(truth), "--json", str(lines)]
     assert main(argv) == 0
     assert "hidden: spring on 1: stiffness = 3, rest" in capsys.readouterr().out
     hidden = json.loads(truth.read_text())["hidden_effects"]
-    assert json.loads(told.read_text())["hidden_effects"] == hidden
+    assert json.loads(lines.read_text())["hidden_effects"] == hidden
     effects = [(effect["effect"], effect["joint"]) for effect in hidden]
     assert effects == [("temperature_friction", "2"), ("spring", "1")]
     assert hidden[1]["values"]["stiffness"] == 3.0

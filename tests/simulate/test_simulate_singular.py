@@ -66,8 +66,8 @@ def test_without_limits_and_near_a_singular_posture() -> None:
 
 def test_what_was_done_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "steep.toml").write_text(STEEP)
-    for robot, told in ((str(tmp_path / "steep.toml"), True), ("five-bar", False)):
+    for robot, text in ((str(tmp_path / "steep.toml"), True), ("five-bar", False)):
         words = ["simulate", robot, "--duration", "8", "--rate", "50"]
         assert main([*words, "--out", str(tmp_path / "a.csv")]) == 0
         said = "of the way from [home] to the limits: farther, the loops"
-        assert (said in capsys.readouterr().out) == told
+        assert (said in capsys.readouterr().out) == text

@@ -94,9 +94,9 @@ class Page:
 
     def every(self, kind: str = "element", text: str | None = None) -> list[Any]:
         """What is visible, of that kind of `nicegui.ui`, with that text in it."""
-        own = getattr(ui, kind)
+        local = getattr(ui, kind)
         with self.user:
-            return [*ElementFilter(kind=own, content=text, local_scope=False, only_visible=True)]
+            return [*ElementFilter(kind=local, content=text, local_scope=False, only_visible=True)]
 
     def listeners(self, event: str) -> list[Any]:
         """What is reported about an event, in the order of the page."""

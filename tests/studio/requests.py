@@ -31,21 +31,21 @@ def port_of(studio: Served) -> int:
 
 def ask(studio, path="/", method="GET", body=None, **headers):
     """Sends a request; `host=` replaces the header, `sec_fetch_site=` is Sec-Fetch-Site."""
-    given = {"host": f"127.0.0.1:{port_of(studio)}"}
-    given |= {name.replace("_", "-"): value for name, value in headers.items()}
+    cells = {"host": f"127.0.0.1:{port_of(studio)}"}
+    cells |= {name.replace("_", "-"): value for name, value in headers.items()}
     connection = http.client.HTTPConnection("127.0.0.1", port_of(studio), timeout=60)
     try:
         connection.putrequest(method, path, skip_host=True, skip_accept_encoding=True)
         if isinstance(body, bytes):
-            given["content-length"] = str(len(body))
-        for name, value in given.items():
+            cells["content-length"] = str(len(body))
+        for name, value in cells.items():
             connection.putheader(name, value)
         connection.endheaders()
         for part in [body] if isinstance(body, bytes) else body or ():
             connection.send(part)
         answer = connection.getresponse()
-        found = {name.lower(): value for name, value in answer.getheaders()}
-        return Answer(answer.status, found, answer.read())
+        table = {name.lower(): value for name, value in answer.getheaders()}
+        return Answer(answer.status, table, answer.read())
     finally:
         connection.close()
 

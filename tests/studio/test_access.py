@@ -31,8 +31,8 @@ def test_the_token_becomes_a_cookie_and_leaves_the_address(studio: Served) -> No
     path = studio.address.removeprefix(studio.root)
     answer = ask(studio, path)
     assert answer.status == 303 and answer.headers["location"] == "/"
-    given = answer.headers["set-cookie"].lower()
-    assert "; httponly" in given and "; samesite=strict" in given and "token" not in given
+    inputs = answer.headers["set-cookie"].lower()
+    assert "; httponly" in inputs and "; samesite=strict" in inputs and "token" not in inputs
     token = path.partition("token=")[2]
     assert len(token) >= 43 and token not in answer.headers["set-cookie"]
     assert ask(studio, cookie=answer.headers["set-cookie"].partition(";")[0]).status == 200
@@ -118,11 +118,11 @@ def test_foreign_pages_are_refused_even_with_the_cookie(studio, cookie, headers)
 
 def test_a_websocket_needs_the_cookie_and_takes_no_token(studio: Served, cookie: str) -> None:
     host = f"127.0.0.1:{port_of(studio)}"
-    own = {"Host": host, "Origin": f"http://{host}"}
-    assert websocket_status(studio, own) == 403
-    assert websocket_status(studio, {**own, "Cookie": f"{cookie}x"}) == 403
-    assert websocket_status(studio, {**own, "Cookie": cookie, "Host": "evil.example"}) == 403
-    assert websocket_status(studio, {**own, "Cookie": cookie}) == 101
+    local = {"Host": host, "Origin": f"http://{host}"}
+    assert websocket_status(studio, local) == 403
+    assert websocket_status(studio, {**local, "Cookie": f"{cookie}x"}) == 403
+    assert websocket_status(studio, {**local, "Cookie": cookie, "Host": "evil.example"}) == 403
+    assert websocket_status(studio, {**local, "Cookie": cookie}) == 101
 
 
 CLIMBING = tuple(
@@ -137,7 +137,9 @@ CLIMBING = tuple(
 
 def test_no_path_leads_out(studio: Served, cookie: str) -> None:
     page = ask(studio, "/", cookie=cookie).text
-    linked = {found.rpartition("/")[0] for found in re.findall(r'(?:href|src)="(/[^"?]+)', page)}
+    linked = {
+        matches.rpartition("/")[0] for matches in re.findall(r'(?:href|src)="(/[^"?]+)', page)
+    }
     prefixes = {"", "/studio.", "/sheet", "/drop", *linked}
     prefixes |= {f"/_nicegui/3.18.0/{kind}/x" for kind in ("resources", "esm", "libraries")}
     assert len(prefixes) > 7

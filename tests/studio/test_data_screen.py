@@ -36,12 +36,12 @@ def test_a_log_is_dropped_dragged_brushed_and_played(window, tmp_path):
 
 
 def drags_and_brushes(w: Window, studio: Served) -> None:
-    page, found = w.page, studio.project
+    page, result = w.page, studio.project
     # By dragging a column onto our name, and back.
     page.locator(".mapping-chip", has_text="Winkel_1").drag_to(page.locator("[data-own=q2]"))
     w.until(lambda: "q2=Winkel_1:deg" in studio.project.mapping)
     page.locator(".mapping-chip", has_text="Winkel_2").drag_to(page.locator("[data-own=q2]"))
-    w.until(lambda: studio.project.mapping == found.mapping)
+    w.until(lambda: studio.project.mapping == result.mapping)
 
     # A stretch is held out, by brushing.
     page.locator(".timeline-active").scroll_into_view_if_needed()
@@ -79,9 +79,9 @@ def plays(w: Window, run: Any) -> None:
     for share in (0.15, 0.83):
         page.mouse.click(box["x"] + share * box["width"], box["y"] + box["height"] / 2)
         page.wait_for_function("posed.length > 0")
-        own, message = page.evaluate("posed.at(-1)")
+        actual, message = page.evaluate("posed.at(-1)")
         at = float(line.get_attribute("aria-valuenow"))
-        assert own and at == pytest.approx(8.0 * share, abs=0.02)
+        assert actual and at == pytest.approx(8.0 * share, abs=0.02)
         for j in JOINTS:
             expected = np.interp(at, run.time, run.q[:, j - 1])
             assert message["q"][str(j)] == pytest.approx(expected, abs=1e-3)

@@ -45,17 +45,17 @@ def drawn_choices(rng, robot):
     signs = [1, -1]
     alike = rng.random() < 0.5
     stem = rng.choice(["pos{}", "data.pos[{}]", "arm/q[{}]", "Joint {} [x]", "{}_pos", "w 1 {}"])
-    found = {"time": ColumnChoice("zeit: s", str(rng.choice(["", "ms", "us"])))}
+    table = {"time": ColumnChoice("zeit: s", str(rng.choice(["", "ms", "us"])))}
     unit, sign = str(rng.choice(["", "deg", "0.01 rev/8192"])), int(rng.choice(signs))
     for k, joint in enumerate(robot):
         label = str(rng.choice([joint.name, str(k + 1)])) if not alike else str(k + 1)
-        own = (unit, sign) if alike else (str(rng.choice(["", "deg"])), int(rng.choice(signs)))
-        found[f"q{joint.name}"] = ColumnChoice(
-            f"{stem.format(label)}{'' if alike else f' ({k})'}", *own
+        actual = (unit, sign) if alike else (str(rng.choice(["", "deg"])), int(rng.choice(signs)))
+        table[f"q{joint.name}"] = ColumnChoice(
+            f"{stem.format(label)}{'' if alike else f' ({k})'}", *actual
         )
         if rng.random() < 0.7:
-            found[f"tau{joint.name}"] = ColumnChoice(f"t={k}:N", str(rng.choice(["N m", "mN m"])))
-    return found
+            table[f"tau{joint.name}"] = ColumnChoice(f"t={k}:N", str(rng.choice(["N m", "mN m"])))
+    return table
 
 
 @pytest.mark.parametrize("robot", [FIVE, NAMES, joints("1")], ids=["digits", "names", "one"])
@@ -64,10 +64,10 @@ def test_words_say_what_was_chosen(robot: tuple[JointSpec, ...], seed: int) -> N
     wanted = drawn_choices(np.random.default_rng(seed), robot)
     words = build_map_words(wanted, {}, robot)
     columns = {one.column for one in wanted.values()}
-    found = build_choices(parse_map_options(words), robot, columns)
+    result = build_choices(parse_map_options(words), robot, columns)
     if wanted["time"].unit == "":  # "zeit: s" looks like a column with its unit
         wanted["time"] = ColumnChoice("zeit: s", "s")
-    assert found == wanted
+    assert result == wanted
 
 
 def test_patterns_are_found_and_what_is_so_is_not_said() -> None:
@@ -75,9 +75,9 @@ def test_patterns_are_found_and_what_is_so_is_not_said() -> None:
     assert build_map_words(plain, {}, FIVE) == ("q<j>=-pos_{n-1}:deg",)
     late = {f"q{j.name}": ColumnChoice(f"c{k + 12}") for k, j in enumerate(FIVE)}
     assert build_map_words(late, {}, FIVE) == ("q<j>=c{n+11}",)
-    own = {f"q{j.name}": ColumnChoice(f"q{j.name}") for j in FIVE}
-    assert build_map_words(own, own, FIVE) == ()
-    assert build_map_words(own | {"q2": ColumnChoice("q2", "deg")}, own, FIVE) == ("q2=q2:deg",)
+    local = {f"q{j.name}": ColumnChoice(f"q{j.name}") for j in FIVE}
+    assert build_map_words(local, local, FIVE) == ()
+    assert build_map_words(local | {"q2": ColumnChoice("q2", "deg")}, local, FIVE) == ("q2=q2:deg",)
     table = {"q<j>": {"column": "enc{n}", "unit": "deg", "scale": 0.01, "offset": 3.0}}
     stated = build_choices(build_map(table, "[log]"), FIVE, [f"enc{k}" for k in range(1, 6)])
     assert stated["q2"] == ColumnChoice("enc2", "0.01 deg", 1, 3.0)
@@ -128,12 +128,12 @@ def test_pictures_have_the_numbers_that_commands_read(tmp_path: Path) -> None:
             encoding="utf-8",
         )
         read = log_window(str(file), list(wanted), -np.inf, np.inf, words, str(robot))
-        for own, choice in wanted.items():
+        for item, choice in wanted.items():
             stated = {"a": "deg", "c": "kg cm", "d": "degC"}.get(choice.column, "")
             time, values = raw[choice.column]
-            np.testing.assert_allclose(time, read[own][0], atol=1e-12)
-            shown = apply_choice(values, stated, choice, own, one)
-            np.testing.assert_allclose(shown, read[own][1], rtol=1e-12)
+            np.testing.assert_allclose(time, read[item][0], atol=1e-12)
+            shown = apply_choice(values, stated, choice, item, one)
+            np.testing.assert_allclose(shown, read[item][1], rtol=1e-12)
 
 
 def test_a_film_passes_through_the_rows(tmp_path: Path) -> None:
@@ -173,18 +173,18 @@ def test_every_instant_has_one_role(timeline: Any, seed: int) -> None:
     assert not (train & test).any() and (train | test).all()
     start, end = np.sort(rng.uniform(0.0, 10.0, 2)).round(2)
     held = TimeRange(float(start), float(end))
-    own = inside((held,), times)
+    local = inside((held,), times)
     for role in ("train", "test"):
         now = timeline.assign_role(log, held, role)
-        assert inside(getattr(now, role), times)[own].all()
-        assert not inside(now.out, times)[own].any()
-        np.testing.assert_array_equal(inside(now.train, times)[~own], train[~own])
-        np.testing.assert_array_equal(inside(now.out, times)[~own], out[~own])
+        assert inside(getattr(now, role), times)[local].all()
+        assert not inside(now.out, times)[local].any()
+        np.testing.assert_array_equal(inside(now.train, times)[~local], train[~local])
+        np.testing.assert_array_equal(inside(now.out, times)[~local], out[~local])
     left = timeline.assign_role(log, held, "out")
-    np.testing.assert_array_equal(inside(left.out, times), out | own)
+    np.testing.assert_array_equal(inside(left.out, times), out | local)
     assert left.train == log.train
     np.testing.assert_array_equal(
-        inside(timeline.assign_role(left, held, "in").out, times), out & ~own
+        inside(timeline.assign_role(left, held, "in").out, times), out & ~local
     )
 
 
@@ -227,9 +227,9 @@ def test_marks_of_a_log_lie_where_it_was_spoilt(tmp_path, capsys):
 
 
 def test_units_begin_with_what_is_taken_without_one() -> None:
-    for own in ("time", "q1", "qd1", "qdd1", "tau1", "qc1", "temperature1"):
-        first = select_units(own, FIVE)[0]
+    for items in ("time", "q1", "qd1", "qdd1", "tau1", "qc1", "temperature1"):
+        first = select_units(items, FIVE)[0]
         np.testing.assert_allclose(
-            apply_choice(np.array([2.0]), "", ColumnChoice("x", first), own, FIVE),
-            apply_choice(np.array([2.0]), "", ColumnChoice("x"), own, FIVE),
+            apply_choice(np.array([2.0]), "", ColumnChoice("x", first), items, FIVE),
+            apply_choice(np.array([2.0]), "", ColumnChoice("x"), items, FIVE),
         )

@@ -59,14 +59,14 @@ def peak(studio: Served) -> int:
 @settings(max_examples=30)
 @given(st.text(max_size=150), st.sampled_from([".csv", ".parquet", ".mcap", ".CSV"]))
 def test_any_name_becomes_a_harmless_one(dropped: Any, name: str, ending: str) -> None:
-    found = dropped.safe_name(name + ending)
-    assert found == dropped.safe_name(found) and found.endswith(ending)
-    assert len(found.encode()) <= 125 and found[0] not in ".- @"
-    assert not set(found) & set("/\\<>&\"'`$|;:*?{}#!%\n\r\t\0") and found.isprintable()
+    result = dropped.safe_name(name + ending)
+    assert result == dropped.safe_name(result) and result.endswith(ending)
+    assert len(result.encode()) <= 125 and result[0] not in ".- @"
+    assert not set(result) & set("/\\<>&\"'`$|;:*?{}#!%\n\r\t\0") and result.isprintable()
 
 
 @with_cases(
-    "name, kept",
+    "name, stored",
     ("run 1.csv", "run 1.csv"),
     ("../../etc/x.csv", "x.csv"),
     ("C:\\logs\\a.mat", "a.mat"),
@@ -77,8 +77,8 @@ def test_any_name_becomes_a_harmless_one(dropped: Any, name: str, ending: str) -
     ("Zu\u0308rich.csv", "Z\u00fcrich.csv"),
     ("x" * 400 + ".parquet", "x" * 112 + ".parquet"),
 )
-def test_names_that_mean_something_lose_it(dropped: Any, name: str, kept: str) -> None:
-    assert dropped.safe_name(name) == kept
+def test_names_that_mean_something_lose_it(dropped: Any, name: str, stored: str) -> None:
+    assert dropped.safe_name(name) == stored
 
 
 def test_thirty_at_once_all_of_one_name(studio: Served, cookie: str) -> None:
@@ -87,10 +87,10 @@ def test_thirty_at_once_all_of_one_name(studio: Served, cookie: str) -> None:
     with ThreadPoolExecutor(30) as pool:
         answers = list(pool.map(lambda data: drop(studio, cookie, "same.csv", data), contents))
     assert all(answer.status == 200 for answer in answers), answers
-    kept = list((studio.folder / "logs").glob("same*.csv"))
-    assert len(kept) == 30 and {path.read_bytes() for path in kept} == contents
-    told = {json.loads(answer.body)["file"] for answer in answers}
-    assert told == {f"logs/{path.name}" for path in kept}
+    rest = list((studio.folder / "logs").glob("same*.csv"))
+    assert len(rest) == 30 and {path.read_bytes() for path in rest} == contents
+    lines = {json.loads(answer.body)["file"] for answer in answers}
+    assert lines == {f"logs/{path.name}" for path in rest}
 
 
 def test_none_is_written_over_another(studio: Served, cookie: str) -> None:
@@ -102,16 +102,16 @@ def test_none_is_written_over_another(studio: Served, cookie: str) -> None:
 
 
 @with_cases(
-    "kind, name, told",
+    "kind, name, text",
     ("logs", "x.exe", "x.exe: cannot be taken; expected .csv, "),
     ("logs", "numpy.py", "numpy.py: cannot be taken"),
     ("logs", "", "cannot be taken"),
     ("originals", "a.csv", "expected .toml, .par, .urdf"),
     ("models", "a.json", "got models; expected one of logs, originals"),
 )
-def test_what_cannot_be_taken_is_one_line(studio, cookie, kind, name, told) -> None:
+def test_what_cannot_be_taken_is_one_line(studio, cookie, kind, name, text) -> None:
     answer = drop(studio, cookie, name, b"x", kind)
-    assert answer.status == 400 and told in answer.text and answer.text.count("error") == 1
+    assert answer.status == 400 and text in answer.text and answer.text.count("error") == 1
     assert not list(studio.folder.rglob("*numpy*")) and not list(studio.folder.rglob("*.exe"))
 
 
@@ -137,18 +137,18 @@ def test_a_large_log_is_never_in_memory(studio: Served, cookie: str, size: int) 
     """Megabytes, not known before: in pieces."""
     before = peak(studio)
     block = bytes(range(256)) * 4096
-    given = {"content_length": str(size * len(block)), "x_name": "large.mcap", "cookie": cookie}
+    cells = {"content_length": str(size * len(block)), "x_name": "large.mcap", "cookie": cookie}
     body = (block for _ in range(size))
-    answer = ask(studio, "/drop/logs", "POST", body, **given)
+    answer = ask(studio, "/drop/logs", "POST", body, **cells)
     assert answer.status == 200, answer.text
-    (kept,) = (studio.folder / "logs").glob("large*")
+    (stored,) = (studio.folder / "logs").glob("large*")
     try:
-        assert kept.stat().st_size == size * 2**20
-        with kept.open("rb") as file:
+        assert stored.stat().st_size == size * 2**20
+        with stored.open("rb") as file:
             file.seek(-(2**20), os.SEEK_END)
             assert file.read() == block
     finally:
-        kept.unlink()
+        stored.unlink()
     assert peak(studio) - before < 40 * 2**20
 
 

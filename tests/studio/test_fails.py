@@ -16,10 +16,10 @@ RANGES = """() => [...document.querySelectorAll('.js-plotly-plot')]
 @pytest.mark.rotating("screens of the studio")
 def test_one_zoom_one_cursor_and_the_robot_plays_along(arm: Path, window) -> None:
     with served(arm) as studio:
-        own = window(viewport={"width": 1280, "height": 2400}).open(studio)
-        own.go("Where it fails")
-        one_zoom(own.page)
-        assert own.complaints == []
+        file = window(viewport={"width": 1280, "height": 2400}).open(studio)
+        file.go("Where it fails")
+        one_zoom(file.page)
+        assert file.complaints == []
 
 
 def one_zoom(page: Any) -> None:
@@ -49,9 +49,9 @@ def one_zoom(page: Any) -> None:
     )
     page.mouse.move(where["x"] + 0.5 * where["width"], middle)
     page.wait_for_function("document.querySelectorAll('.studio-cursor:not([hidden])').length === 3")
-    told = {line.inner_text() for line in page.locator(".studio-cursor").all()}
-    assert len(told) == 1
-    assert abs(float(told.pop().removesuffix(" s")) - 0.5 * (low + high)) < 0.1
+    lines = {line.inner_text() for line in page.locator(".studio-cursor").all()}
+    assert len(lines) == 1
+    assert abs(float(lines.pop().removesuffix(" s")) - 0.5 * (low + high)) < 0.1
     page.mouse.dblclick(where["x"] + 0.5 * where["width"], middle)
     length = 0.95 * (whole[1] - whole[0])
     page.wait_for_function(f"({RANGES})().every(([a, b]) => b - a > {length})")

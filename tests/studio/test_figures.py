@@ -17,19 +17,19 @@ def traces(picture: Picture) -> dict[str, dict[str, Any]]:
 
 
 def test_every_kind_of_series_is_drawn_as_it_is() -> None:
-    own = traces(EVERY_KIND)
-    measured = own["measured"]
+    local = traces(EVERY_KIND)
+    measured = local["measured"]
     assert measured["mode"] == "lines" and measured["line"]["color"] == "#000000"
     np.testing.assert_allclose(np.array(measured["y"], dtype=float), Y, atol=1e-6)
     assert measured["y"].count(None) == int(np.isnan(Y).sum()) > 0
-    assert own["predicted"]["line"]["dash"] == "dash"
-    assert own["samples"]["mode"] == "markers" and own["samples"]["type"] == "scatter"
-    mean = own["mean"]
+    assert local["predicted"]["line"]["dash"] == "dash"
+    assert local["samples"]["mode"] == "markers" and local["samples"]["type"] == "scatter"
+    mean = local["mean"]
     assert mean["mode"] == "lines+markers" and mean["error_y"]["array"] == [0.05] * 7
-    bars = own["left"]
+    bars = local["left"]
     assert bars["type"] == "bar" and bars["base"] == [60.0, 80.0] and bars["y"] == [40.0, 20.0]
     assert bars["x"] == ["1", "two<br>lines"] and bars["text"] == ["40", "20"]
-    cells = own["share"]
+    cells = local["share"]
     assert cells["type"] == "heatmap" and cells["z"] == [[10.0, None], [0.0, 90.0], [55.0, 20.0]]
     assert cells["zmax"] == 100.0 and cells["y"] == ["1", "2", "3"]
 
@@ -39,11 +39,11 @@ def test_a_band_is_a_closed_piece_for_each_run() -> None:
     x, y = (np.array(band[axis], dtype=float) for axis in "xy")
     pieces = np.split(np.arange(x.size), np.flatnonzero(np.isnan(x)) + 1)
     areas = []
-    for piece in (own[:-1] for own in pieces if own.size):
+    for piece in (item[:-1] for item in pieces if item.size):
         u, v = x[piece], y[piece]
         areas.append(0.5 * abs(np.dot(u, np.roll(v, 1)) - np.dot(v, np.roll(u, 1))))
     held = X[~np.isnan(Y)]
-    widths = [np.ptp(own) for own in np.split(held, np.flatnonzero(np.diff(held) > 0.15) + 1)]
+    widths = [np.ptp(entry) for entry in np.split(held, np.flatnonzero(np.diff(held) > 0.15) + 1)]
     np.testing.assert_allclose(areas, 0.2 * np.array(widths), rtol=1e-6)  # of height 0.2
     assert band["fill"] == "toself" and band["opacity"] == 0.4
 
@@ -95,9 +95,9 @@ def test_many_dots_are_drawn_by_the_graphics_processor() -> None:
 
 def test_numbers_keep_what_a_zoom_of_a_thousand_shows() -> None:
     x = 1.7e9 + np.linspace(0.0, 100.0, 200)  # seconds since 1970
-    own = drawn(Curve("c", x, 1e-9 * np.sin(x), Style(BLUE)))
-    assert np.abs(np.array(own["x"]) - x).max() < 1e-6 * 100.0
-    assert np.abs(np.array(own["y"]) - 1e-9 * np.sin(x)).max() < 1e-6 * 2e-9 * 1.01
+    actual = drawn(Curve("c", x, 1e-9 * np.sin(x), Style(BLUE)))
+    assert np.abs(np.array(actual["x"]) - x).max() < 1e-6 * 100.0
+    assert np.abs(np.array(actual["y"]) - 1e-9 * np.sin(x)).max() < 1e-6 * 2e-9 * 1.01
 
 
 def test_what_a_relayout_says_of_time() -> None:

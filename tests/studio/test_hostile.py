@@ -80,15 +80,15 @@ def task_of(verb: Verb, **harm: object) -> Task:
     """One with all the values that its verb may have."""
     logs = (LogPart("logs/a.csv", TimeRange(0.0, 2.0)),)
     known = {"logs": logs, "held": logs, "file": "logs/a.csv", "robot": True, "models": (1, 2)}
-    own: dict[str, object] = {}
+    local: dict[str, object] = {}
     for field in dataclasses.fields(Task)[1:]:
         if field.name in FIELDS[verb].split():
             word = known.get(field.name, WORDS.get(field.name, 1))
             many = field.name in WORDS and isinstance(field.default, tuple)
-            own[field.name] = (word,) if many else word
+            local[field.name] = (word,) if many else word
     if verb == "export":
-        del own["like"]
-    return Task(verb, **{**own, **harm})  # type: ignore[arg-type]
+        del local["like"]
+    return Task(verb, **{**local, **harm})  # type: ignore[arg-type]
 
 
 STEPS = tuple(
@@ -320,12 +320,12 @@ def test_a_notebook_and_a_script_hold_values_as_values(tmp_path: Path) -> None:
     project = Project(
         "robot.toml", 3, steps=steps, logs=(ProjectLog("logs/a.csv", (TimeRange(),)),)
     )
-    own = build_recipe(project, tmp_path / evil, {})
-    for cell in json.loads(format_notebook(own))["cells"]:
+    local = build_recipe(project, tmp_path / evil, {})
+    for cell in json.loads(format_notebook(local))["cells"]:
         if cell["cell_type"] == "code":
             for node in ast.walk(ast.parse("".join(cell["source"]))):
                 assert not (isinstance(node, ast.Name) and node.id == "__import__")
-    (tmp_path / "steps.sh").write_text(format_script(own))
+    (tmp_path / "steps.sh").write_text(format_script(local))
     environment = {"PATH": os.environ["PATH"], "MODELER": "true"}
     (tmp_path / "fresh").mkdir()
     done = subprocess.run(["sh", "../steps.sh"], cwd=tmp_path / "fresh", env=environment)
@@ -344,7 +344,7 @@ OURS = {
 
 def test_names_are_no_part_of_a_text_of_attributes() -> None:
     """What stands in `props(...)` is parsed: a quote in a name would begin a program there."""
-    found = set()
+    names = set()
     for path in Path(studio.__file__).parent.glob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             called = isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2]
@@ -352,7 +352,7 @@ def test_names_are_no_part_of_a_text_of_attributes() -> None:
                 words = node.args[2:] if called == "add_button" else node.args
                 for part in (part for word in words for part in ast.walk(word)):
                     if isinstance(part, ast.FormattedValue):
-                        found.add(ast.unparse(part.value))
+                        names.add(ast.unparse(part.value))
                     assert not isinstance(part, ast.BinOp | ast.Mod) or "alone" in ast.unparse(part)
-    assert found <= OURS, "write element.props[NAME] = TEXT, which is not parsed"
-    assert len(found) > 4
+    assert names <= OURS, "write element.props[NAME] = TEXT, which is not parsed"
+    assert len(names) > 4

@@ -30,17 +30,17 @@ def hostile(axis: Path, tmp_path_factory) -> Path:
     """A project with a fit, a comparison and a diagnosis, in which every free name is harmful."""
     folder = tmp_path_factory.mktemp("names") / FOLDER
     (folder / "logs").mkdir(parents=True)
-    told = (HARM + CLOSING).replace("\\", "").replace('"', "'")
-    text = read_builtin_robot("emps").replace("EMPS, one", f"{told} one")
+    message = (HARM + CLOSING).replace("\\", "").replace('"', "'")
+    text = read_builtin_robot("emps").replace("EMPS, one", f"{message} one")
     (folder / "robot.toml").write_text(text)
     plain = axis / "logs/a.csv"
     with plain.open(newline="") as file:
         head, *rows = csv.reader(file)
     name = f"logs/{TAG} {TEMPLATE} {QUOTED}.csv"
     with (folder / name).open("w", newline="") as file:
-        own = csv.writer(file)
-        own.writerow([*head, HARM, f"q9 {TAG}", f"temp{CLOSING.replace('/', '|')}"])
-        own.writerows([*row, row[0], row[1], "20"] for row in rows)
+        item = csv.writer(file)
+        item.writerow([*head, HARM, f"q9 {TAG}", f"temp{CLOSING.replace('/', '|')}"])
+        item.writerows([*row, row[0], row[1], "20"] for row in rows)
     log = ProjectLog(name, (TimeRange(0.0, 3.0),), (TimeRange(3.5, 6.0),), (TimeRange(1.0, 1.1),))
     project = Project("robot.toml", logs=(log,), without=(TAG, QUOTED, SINGLE), mapping=())
 

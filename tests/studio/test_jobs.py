@@ -69,8 +69,8 @@ def do_jobs(person: Person) -> None:
     page.wait_for_timeout(1000)
     person.keep("missing")
     (step,) = (step for step in project().steps if step.verb == "diagnose")
-    (found,) = json.loads((person.studio.folder / step.result_file).read_text())["effects"]
-    assert (found["effect"], found["joint"]) == ("load_friction", "2")
+    (result,) = json.loads((person.studio.folder / step.result_file).read_text())["effects"]
+    assert (result["effect"], result["joint"]) == ("load_friction", "2")
     before = project().current
     person.runs("Preview", "add")
     window.sees("Preview. ")

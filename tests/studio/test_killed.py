@@ -46,8 +46,8 @@ with lock_folder(folder) as own:
 
 def check(folder: Path, told: int) -> int:
     """Opens it as the next studio does; the steps that it holds."""
-    with lock_folder(folder) as own:
-        assert own
+    with lock_folder(folder) as local:
+        assert local
         project = Workspace(folder).project
         steps = [step.number for step in project.steps]
         assert steps == list(range(1, len(steps) + 1)) and told <= len(steps) <= told + 1
@@ -65,12 +65,12 @@ def check(folder: Path, told: int) -> int:
 
 def working_in(folder: Path) -> list[str]:
     """Processes that run in the folder."""
-    found = []
+    values = []
     for place in Path("/proc").glob("[0-9]*/cwd"):
         with contextlib.suppress(OSError):
             if place.readlink() == folder:
-                found.append(place.parent.name)
-    return found
+                values.append(place.parent.name)
+    return values
 
 
 @pytest.mark.rotating("long tests of studio")
@@ -88,9 +88,9 @@ def test_killed_at_random_moments(axis_project: Path, times: int) -> None:
             assert server.stdout is not None and server.stdout.readline() == "open\n"
             time.sleep(moment)
             server.kill()
-            told = [int(line) for line in server.stdout]
+            lines = [int(line) for line in server.stdout]
         wait_until(lambda: not working_in(folder))
-        held = check(folder, max([held, *told]))
+        held = check(folder, max([held, *lines]))
     assert (held > 0 or times < 10) and (folder / FILE).exists()
 
 

@@ -53,7 +53,7 @@ def test_the_picker_lists_what_may_be_chosen(tree: Path) -> None:
 
 
 @with_cases(
-    "place, told",
+    "place, text",
     ("shut", "outside the folders that this studio may use; start it with --allow"),
     ("shut/secret.csv", "outside"),
     ("open/..", "outside"),
@@ -66,11 +66,11 @@ def test_the_picker_lists_what_may_be_chosen(tree: Path) -> None:
     ("openx", "no such file"),
     ("open2", "outside"),
 )
-def test_nothing_outside_is_chosen(tree: Path, place: str, told: str) -> None:
+def test_nothing_outside_is_chosen(tree: Path, place: str, text: str) -> None:
     roots = Roots((tree / "open",))
-    with pytest.raises(DataError, match=told):
+    with pytest.raises(DataError, match=text):
         roots.resolve_inside(f"{tree}/{place}")
-    with pytest.raises(DataError, match=told):
+    with pytest.raises(DataError, match=text):
         roots.read_entries(f"{tree}/{place}")
     assert Roots((tree / "shut", tree / "open")).resolve_inside(tree / "open/out") == tree / "shut"
 
@@ -92,18 +92,18 @@ def test_one_has_the_folder_and_a_killed_one_does_not(tmp_path: Path) -> None:
     words = [sys.executable, "-c", HOLD, str(folder)]
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as holder:
         assert holder.stdout is not None and holder.stdout.readline() == "True\n"
-        with lock_folder(folder) as own:
-            assert not own
+        with lock_folder(folder) as local:
+            assert not local
         left = [folder / f".dropping-{'ab' * 8}", folder / f".modeler-{'0' * 16}"]
         mine = [folder / ".modeler-notes", folder / "project.toml"]
         for path in left + mine:
             path.write_text("x")
-        with lock_folder(folder) as own:
-            assert not own and left[0].exists()  # it may be in use
+        with lock_folder(folder) as local:
+            assert not local and left[0].exists()  # it may be in use
         holder.kill()
         holder.wait()
-        with lock_folder(folder) as own:
-            assert own and all(path.exists() for path in mine)
+        with lock_folder(folder) as local:
+            assert local and all(path.exists() for path in mine)
             assert not any(path.exists() for path in left)
             with lock_folder(folder) as second:
                 assert not second
@@ -114,8 +114,8 @@ def test_a_folder_that_may_not_be_written_is_read(tmp_path: Path, monkeypatch) -
         raise PermissionError(errno.EACCES, "Permission denied")  # as anybody but root would get
 
     monkeypatch.setattr(Path, "open", refused)
-    with lock_folder(tmp_path) as own:
-        assert not own
+    with lock_folder(tmp_path) as local:
+        assert not local
 
 
 # Disk.
@@ -153,17 +153,17 @@ def test_tidying_takes_what_no_step_on_the_way_needs(tmp_path: Path) -> None:
     mine = [tmp_path / name for name in ("models/mine.json", "results/3.txt", "logs/3.json")]
     for path in mine:
         path.write_text("mine")
-    found = find_unused_files(tmp_path, project)
-    assert [s.number for s in found.project.steps] == [1, 2, 4, 6, 8]
-    assert found.project.current == 4 and found.project.collect_path() == project.collect_path()
-    numbers = {int(Path(file).name.split(".")[0]) for file in found.files}
-    assert numbers == {3, 5, 7} and found.size == 3 * (2 + 3 + 1)
+    files = find_unused_files(tmp_path, project)
+    assert [s.number for s in files.project.steps] == [1, 2, 4, 6, 8]
+    assert files.project.current == 4 and files.project.collect_path() == project.collect_path()
+    numbers = {int(Path(file).name.split(".")[0]) for file in files.files}
+    assert numbers == {3, 5, 7} and files.size == 3 * (2 + 3 + 1)
     before = sum(compute_disk_use(tmp_path).values())
-    found.remove(tmp_path)
-    assert before - sum(compute_disk_use(tmp_path).values()) == found.size
+    files.remove(tmp_path)
+    assert before - sum(compute_disk_use(tmp_path).values()) == files.size
     assert all(path.exists() for path in mine)
-    again = find_unused_files(tmp_path, found.project)
-    assert again.files == () and again.project == found.project
+    again = find_unused_files(tmp_path, files.project)
+    assert again.files == () and again.project == files.project
 
 
 def test_what_another_step_names_stays(tmp_path: Path) -> None:

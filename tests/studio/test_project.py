@@ -113,15 +113,15 @@ def test_what_is_left_of_a_stretch_is_all_but_its_gaps() -> None:
     draw = random.Random(5)
     grid = [k / 10.0 + 0.05 for k in range(200)]
     for _ in range(200):
-        own = TimeRange(*sorted(draw.choices(range(21), k=2)))
+        item = TimeRange(*sorted(draw.choices(range(21), k=2)))
         gaps = [TimeRange(*sorted(draw.choices(range(21), k=2))) for _ in range(draw.randrange(4))]
-        left = own.subtract_gaps(gaps)
+        left = item.subtract_gaps(gaps)
 
         def holds(parts: list[TimeRange], t: float) -> bool:
             return any(part.start < t < part.end for part in parts)
 
         for t in grid:
-            assert holds(left, t) == (holds([own], t) and not holds(gaps, t))
+            assert holds(left, t) == (holds([item], t) and not holds(gaps, t))
         assert all(one.end < other.start for one, other in pairwise(left))
 
 
@@ -161,22 +161,22 @@ def test_the_path_is_that_of_the_current_model() -> None:
 
 
 def test_a_workspace_saves_in_one_piece_and_reads_only_where_it_must(tmp_path: Path) -> None:
-    own = Workspace(tmp_path / "arm")
+    work = Workspace(tmp_path / "arm")
     (tmp_path / "arm").mkdir()
-    own.save(_steps())
+    work.save(_steps())
     assert Workspace(tmp_path / "arm").project == _steps()
     other = Workspace(tmp_path / "arm", writable=False)
     with pytest.raises(DataError, match="open in another window"):
         other.save(Project())
-    own.save(Project(robot="robot.toml"))
+    work.save(Project(robot="robot.toml"))
     assert other.project == _steps()
     other.reload_project()
     assert other.project == Project(robot="robot.toml")
     (tmp_path / "arm" / FILE).unlink()
     (tmp_path / "arm" / FILE).mkdir()  # nothing can be written there
     with pytest.raises(ModelerError):
-        own.save(Project())
-    assert own.project == Project(robot="robot.toml")
+        work.save(Project())
+    assert work.project == Project(robot="robot.toml")
 
 
 def test_a_stretch_of_a_clock_that_counts_from_1970_keeps_its_ends() -> None:
@@ -199,9 +199,9 @@ def test_a_stretch_of_a_clock_that_counts_from_1970_keeps_its_ends() -> None:
 
 def test_a_project_of_this_user_is_known_wherever_it_lies(tmp_path: Path) -> None:
     (tmp_path / "mine").mkdir()
-    own = Workspace(tmp_path / "mine")
-    assert not own.foreign  # an empty folder is nobody's
-    own.save(_steps())
+    work = Workspace(tmp_path / "mine")
+    assert not work.foreign  # an empty folder is nobody's
+    work.save(_steps())
     assert not Workspace(tmp_path / "mine").foreign
     (tmp_path / "mine").rename(tmp_path / "moved")
     assert not Workspace(tmp_path / "moved").foreign

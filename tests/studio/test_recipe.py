@@ -58,12 +58,12 @@ PROJECT = Project(
 )
 def test_what_is_typed_parses(task):
     step = PROJECT.make_next_step(task)
-    given = build_parser().parse_args(
+    known = build_parser().parse_args(
         [*commands.build_command_words(PROJECT, task), *build_bookkeeping_words(step)]
     )
-    assert given.json == "results/2.json"
+    assert known.json == "results/2.json"
     if step.output:
-        assert step.output in (getattr(given, "out", ""), getattr(given, "report", ""))
+        assert step.output in (getattr(known, "out", ""), getattr(known, "report", ""))
 
 
 def test_a_step_is_known_again_but_for_its_number():
@@ -105,8 +105,8 @@ def worked(tmp_path_factory) -> Workspace:
     workspace.save(dataclasses.replace(project, without=("backlash", "time_delay")))
 
     def added(project: Project) -> Task:
-        (found,) = json.loads((folder / "results/2.json").read_text())["effects"][:1]
-        return commands.add(project, found["effect"], found["joint"])
+        (result,) = json.loads((folder / "results/2.json").read_text())["effects"][:1]
+        return commands.add(project, result["effect"], result["joint"])
 
     with hub_of(folder) as hub:
         run_tasks(hub, lambda project: commands.fit(project, OPTIONS), commands.diagnose)
@@ -225,5 +225,5 @@ def test_the_notebook_guesses_where_the_commands_guess():
         Task("compare", b, mapping=auto),
     )
     steps = tuple(Step(k, k - 1, task) for k, task in enumerate(tasks, start=1))
-    told = export_screen.format_notebook(export_screen.Recipe(Path("here"), steps, {}, frozenset()))
-    assert told.count("mapping=['auto']") == len(tasks)
+    text = export_screen.format_notebook(export_screen.Recipe(Path("here"), steps, {}, frozenset()))
+    assert text.count("mapping=['auto']") == len(tasks)

@@ -57,11 +57,11 @@ def opened(window, tmp_path: Path) -> Iterator[Callable[..., tuple[Any, Any]]]:
         (tmp_path / "robot.html").write_text(page, encoding="utf-8")
         source = PARENT.replace('src="', f'src="http://localhost:{port}/')
         (tmp_path / "parent.html").write_text(source, encoding="utf-8")
-        own = window(viewport={"width": 900, "height": 700})
-        own.page.goto(f"http://{parent}:{port}/parent.html")
-        frame = own.page.frame_locator("iframe").owner.element_handle().content_frame()
+        item = window(viewport={"width": 900, "height": 700})
+        item.page.goto(f"http://{parent}:{port}/parent.html")
+        frame = item.page.frame_locator("iframe").owner.element_handle().content_frame()
         until(frame, "window.modelerShow && modelerShow.view.items.length > 0")
-        return own, frame
+        return item, frame
 
     yield open_robot
     server.shutdown()
@@ -71,30 +71,30 @@ def opened(window, tmp_path: Path) -> Iterator[Callable[..., tuple[Any, Any]]]:
 @pytest.mark.rotating("screens of the studio")
 def test_postures_are_taken_and_loops_follow(opened) -> None:
     robot = skeleton(read_builtin_robot("orthoglide-2003"))
-    own, frame = opened(read_builtin_robot("orthoglide-2003"))
-    page, given, home = own.page, list(robot.independent_places), find_home_posture(robot)
+    item, frame = opened(read_builtin_robot("orthoglide-2003"))
+    page, inputs, home = item.page, list(robot.independent_places), find_home_posture(robot)
     assert not frame.locator("header").is_visible() and not frame.locator("#mdh").is_visible()
-    drives = [robot.free[k] for k in given]
-    targets = dict(zip(drives, home.u[given] + [0.03, -0.05, 0.02], strict=True))
+    drives = [robot.free[k] for k in inputs]
+    targets = dict(zip(drives, home.u[inputs] + [0.03, -0.05, 0.02], strict=True))
     page.evaluate(f"send({{modeler: 'posture', q: {json.dumps(targets)}}})")
-    until(frame, f"Math.abs(modelerShow.u[{given[0]}] - {targets[drives[0]]}) < 1e-9")
+    until(frame, f"Math.abs(modelerShow.u[{inputs[0]}] - {targets[drives[0]]}) < 1e-9")
     u = np.array(frame.evaluate("modelerShow.u"))
-    np.testing.assert_allclose(u[given], list(targets.values()), atol=1e-9)
+    np.testing.assert_allclose(u[inputs], list(targets.values()), atol=1e-9)
     assert max(gap.distance for gap in compute_gaps(robot, u)) < 1e-8
     # Out of reach: the joints stop, with closed loops, and the way back is open.
     page.evaluate(f"send({{modeler: 'posture', q: {{'{drives[0]}': 9}}}})")
     until(frame, "document.getElementById('message').textContent.startsWith('cannot')")
     u = np.array(frame.evaluate("modelerShow.u"))
-    assert u[given[0]] < 9 and max(gap.distance for gap in compute_gaps(robot, u)) < 1e-7
+    assert u[inputs[0]] < 9 and max(gap.distance for gap in compute_gaps(robot, u)) < 1e-7
     page.evaluate(f"send({{modeler: 'posture', q: {json.dumps(targets)}}})")
     until(frame, "document.getElementById('message').textContent === ''")
-    assert own.complaints == []
+    assert item.complaints == []
 
 
 @pytest.mark.rotating("screens of the studio")
 def test_rows_are_lit_clicks_are_told_and_another_robot_keeps_the_eye(opened) -> None:
-    own, frame = opened(PUMA)
-    page = own.page
+    item, frame = opened(PUMA)
+    page = item.page
     page.evaluate("send({modeler: 'light', rows: ['3', 'nobody']})")
     until(frame, "[...modelerShow.view.lit].join() === '2'")
     place = "(() => { const v = modelerShow.view; return v.flat(v.point([2, 0, 0, -0.07505])); })()"
@@ -113,9 +113,9 @@ def test_rows_are_lit_clicks_are_told_and_another_robot_keeps_the_eye(opened) ->
     longer = skeleton(PUMA.replace("D3 = 0.4318", "D3 = 0.50"))
     page.evaluate(f"send({{modeler: 'robot', content: {content_of(longer)}}})")
     page.wait_for_function("last('drawn') !== null")
-    told = page.evaluate("last('drawn').frames")
+    value = page.evaluate("last('drawn').frames")
     for expected in serialise_posture(longer, find_home_posture(longer))["frames"]:
-        np.testing.assert_allclose(told[expected["name"]], expected["pose"], atol=1e-12)
+        np.testing.assert_allclose(value[expected["name"]], expected["pose"], atol=1e-12)
     assert frame.evaluate("[modelerShow.view.rotation, modelerShow.view.scale]") == eye
     page.evaluate("send({modeler: 'posture', q: {'2': 0.4}})")
     until(frame, "modelerShow.u[1] === 0.4")
@@ -126,16 +126,16 @@ def test_rows_are_lit_clicks_are_told_and_another_robot_keeps_the_eye(opened) ->
     page.wait_for_function("last('drawn') !== null")
     assert frame.evaluate("modelerShow.view.filled(modelerShow.poses()) > 0.3")
     assert frame.locator("#loops").is_visible() and frame.locator(".joint").count() == 2
-    assert own.complaints == []
+    assert item.complaints == []
 
 
 @pytest.mark.rotating("long tests of studio")
 def test_nobody_else_is_heard(opened) -> None:
     message = "{modeler: 'posture', q: {'1': 1}}"
-    own, frame = opened(PUMA, parent="127.0.0.1")  # another origin
-    own.page.evaluate(f"send({message})")
+    page, frame = opened(PUMA, parent="127.0.0.1")  # another origin
+    page.page.evaluate(f"send({message})")
     frame.evaluate(DRAWN)
-    assert frame.evaluate("modelerShow.u[0]") == 0 and own.page.evaluate("heard.length") == 0
+    assert frame.evaluate("modelerShow.u[0]") == 0 and page.page.evaluate("heard.length") == 0
     _, frame = opened(PUMA)
     frame.evaluate(f"window.postMessage({message}, '*'), 0")  # not the parent
     frame.evaluate(DRAWN)

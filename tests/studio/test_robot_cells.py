@@ -44,11 +44,11 @@ def test_a_cell_changes_alone_and_back(name: str) -> None:
     for _ in range(6):
         row, column = int(rng.integers(len(table.rows))), int(rng.integers(len(table.columns)))
         changed = replace_cell(text, row, column, 'x + "1"')
-        found = find_table_text(changed)
-        assert found is not None
+        result = find_table_text(changed)
+        assert result is not None
         expected = [[*cells] for cells in table.rows]
         expected[row][column] = 'x + "1"'
-        assert [[*cells] for cells in found.rows] == expected
+        assert [[*cells] for cells in result.rows] == expected
         assert others(changed) == others(text) and comments(changed) == comments(text)
         back = replace_cell(changed, row, column, table.rows[row][column])
         assert tomllib.loads(back) == tomllib.loads(text)
@@ -137,9 +137,9 @@ def test_an_error_is_at_its_cell(mistake: str) -> None:
     assert look.error and look.content is None, look.error
     assert look.wrong_cell == expected, look.error
     assert "\n" not in look.error
-    with pytest.raises(RobotError) as told:
+    with pytest.raises(RobotError) as result:
         parse_robot_text(spoilt, "robot.toml")
-    assert str(told.value) == look.error
+    assert str(result.value) == look.error
 
 
 def test_errors_of_legs_are_at_the_row_that_they_are_written_in() -> None:

@@ -22,11 +22,11 @@ from tests.rotation import with_cases
 def hand(kind: str, rows: np.ndarray, q: np.ndarray) -> np.ndarray:
     """The last frame by the book: rows are alpha, a (d of Khalil's), theta, d (r), rad and m."""
     pose = np.eye(4)
-    for (alpha, a, theta, d), own in zip(rows, q, strict=True):
+    for (alpha, a, theta, d), item in zip(rows, q, strict=True):
         if kind == "classical":
-            pose = pose @ row_pose(gamma=theta + own, b=d, d=a, alpha=alpha)
+            pose = pose @ row_pose(gamma=theta + item, b=d, d=a, alpha=alpha)
         else:
-            pose = pose @ row_pose(alpha=alpha, d=a, theta=theta + own, r=d)
+            pose = pose @ row_pose(alpha=alpha, d=a, theta=theta + item, r=d)
     return pose
 
 
@@ -67,8 +67,8 @@ def test_degrees_and_mm_by_their_headings(kind: str, comma: str, seed: int) -> N
     assert len(robot.coordinates) == count
     si = rows * [math.radians(1), 1e-3, math.radians(1), 1e-3]
     q = rng.uniform(-2, 2, count)
-    found = frame_of(build_pasted_robot(table, "pasted"), q)
-    np.testing.assert_allclose(found, hand(kind, si, q), atol=1e-12)
+    result = frame_of(build_pasted_robot(table, "pasted"), q)
+    np.testing.assert_allclose(result, hand(kind, si, q), atol=1e-12)
 
 
 PUMA = (  # Craig, Introduction to Robotics, table of the PUMA 560
@@ -83,12 +83,12 @@ def test_letters_of_a_book_become_symbols() -> None:
     assert table.convention == "craig" and table.symbols == ("a2", "d3", "a3", "d4")
     text = build_pasted_robot(table, "puma")
     assert set(read_symbol_texts(text)) == {"g", "a2", "d3", "a3", "d4"}
-    found = frame_of(text, np.zeros(6))
+    actual = frame_of(text, np.zeros(6))
     a = 0.1  # all of them, until somebody writes the value
     alpha = [0, -90, 0, -90, 90, -90]
     lengths = [(0, 0), (0, 0), (a, a), (a, a), (0, 0), (0, 0)]
     rows = np.array([[math.radians(x), y, 0, z] for x, (y, z) in zip(alpha, lengths, strict=True)])
-    np.testing.assert_allclose(found, hand("craig", rows, np.zeros(6)), atol=1e-12)
+    np.testing.assert_allclose(actual, hand("craig", rows, np.zeros(6)), atol=1e-12)
 
 
 @with_cases(
@@ -120,8 +120,8 @@ def test_without_headings_the_convention_is_the_users() -> None:
     assert khalil.notes[0] == "no headings: taken as alpha d theta r"
     assert khalil.notes[1] == "column alpha: taken in degrees, for 90 rad is more than a turn"
     rows = np.array([[math.pi / 2, 0.2, 0, 0], [0, 0, 0.1, 0.3]])
-    found = frame_of(build_pasted_robot(craig, "x"), np.array([0.1, 0.2]))
-    np.testing.assert_allclose(found, hand("craig", rows, np.array([0.1, 0.2])), atol=1e-12)
+    actual = frame_of(build_pasted_robot(craig, "x"), np.array([0.1, 0.2]))
+    np.testing.assert_allclose(actual, hand("craig", rows, np.array([0.1, 0.2])), atol=1e-12)
 
 
 def test_a_file_gets_another_table_and_keeps_the_rest() -> None:
@@ -148,9 +148,9 @@ def test_a_file_gets_another_table_and_keeps_the_rest() -> None:
     ("\t".join("0" * 12), "pasted table: got 12 columns without headings"),
 )
 def test_what_cannot_be_a_table_is_told(text: str, line: str) -> None:
-    with pytest.raises(RobotError) as told:
+    with pytest.raises(RobotError) as result:
         parse_pasted_table(text)
-    assert str(told.value).startswith(line) and "; expected " in str(told.value)
+    assert str(result.value).startswith(line) and "; expected " in str(result.value)
 
 
 def test_nothing_in_a_table_is_evaluated(tmp_path, monkeypatch) -> None:

@@ -44,9 +44,9 @@ def cell(window: Window, row: int, column: str) -> Any:
 def poses_are_those_of(window: Window, place: Path) -> None:
     """What the frame reported last is what `modeler show --json` says of the file."""
     shown = show(parse_robot_text(place.read_text(encoding="utf-8"), "robot.toml"))
-    told = window.page.evaluate(f"{STANDING}.frames")
+    value = window.page.evaluate(f"{STANDING}.frames")
     for frame in serialise_posture(shown.skeleton, shown.posture)["frames"]:
-        np.testing.assert_allclose(told[frame["name"]], frame["pose"], atol=1e-9)
+        np.testing.assert_allclose(value[frame["name"]], frame["pose"], atol=1e-9)
 
 
 @pytest.mark.rotating("screens of the studio")
@@ -133,13 +133,13 @@ def test_base_parameters_light_their_links_and_loops_stay_closed(window, tmp_pat
         w.page.wait_for_selector(".studio-relations > li")
         frame = inside(w)
         step = studio.project.steps[-1]
-        found = json.loads((folder / step.result_file).read_text())
-        assert w.page.locator(".studio-relations > li").count() == len(found["base"]) == 43
+        data = json.loads((folder / step.result_file).read_text())
+        assert w.page.locator(".studio-relations > li").count() == len(data["base"]) == 43
         w.sees("43 base parameters (")
         rows = [row.joint.name for row in show(robot).skeleton.rows]
         # Each by the mouse or by the keyboard: exactly the rows of its terms, and all its terms.
         for k in (0, 7, 20, 42):
-            item, entry = w.page.locator(".studio-relations > li").nth(k), found["base"][k]
+            item, entry = w.page.locator(".studio-relations > li").nth(k), data["base"][k]
             if k % 2:
                 item.focus()
             else:

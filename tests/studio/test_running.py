@@ -64,15 +64,15 @@ def test_results_progress_and_seconds(tmp_path: Path) -> None:
 
 
 @with_cases(
-    "words, status, told",
+    "words, status, text",
     (("derive", "no-such-robot"), 1, '"no-such-robot" is neither'),
     (("derive", "wrist", "--no-such-option"), 2, "unknown option --no-such-option"),
     (("dance",), 2, "unknown command dance"),
     (("derive", "a\0b"), 1, "the work: cannot be started (embedded null byte)"),
 )
-def test_an_error_is_the_line_that_the_command_prints(tmp_path, words, status, told) -> None:
+def test_an_error_is_the_line_that_the_command_prints(tmp_path, words, status, text) -> None:
     outcome, _ = run(tmp_path, *words)
-    assert outcome.status == status and outcome.error.startswith(told)
+    assert outcome.status == status and outcome.error.startswith(text)
     assert "\n" not in outcome.error and not outcome.error.startswith("modeler:")
 
 
@@ -113,9 +113,9 @@ def test_endless_lines_are_no_trouble(tmp_path: Path, sabotage) -> None:
     assert outcome.status == 0 and len(outcome.lines[0]) == 3_000_000
 
 
-@pytest.mark.parametrize("given", ["", pytest.param(os.pathsep, marks=pytest.mark.rotating)])
-def test_files_of_the_project_are_no_modules(tmp_path: Path, monkeypatch, given) -> None:
-    monkeypatch.setenv("PYTHONPATH", given)
+@pytest.mark.parametrize("inputs", ["", pytest.param(os.pathsep, marks=pytest.mark.rotating)])
+def test_files_of_the_project_are_no_modules(tmp_path: Path, monkeypatch, inputs) -> None:
+    monkeypatch.setenv("PYTHONPATH", inputs)
     for name in ("numpy", "json", "argparse", "modeler"):
         (tmp_path / f"{name}.py").write_text("open('was-run', 'w')\n")
     assert run(tmp_path, "robots", "two-link")[0].status == 0

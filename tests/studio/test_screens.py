@@ -71,9 +71,13 @@ def test_an_effect_is_banned_previewed_and_added(arm: Path) -> None:
         project = page.project
         tried = project.steps[-1]
         assert tried.verb == "add" and (arm / tried.model_file).is_file() and project.current == 5
-        found = next(step for step in project.steps if step.verb == "diagnose")
+        result = next(step for step in project.steps if step.verb == "diagnose")
         words = ("diagnose", "models/5.json", "logs/train.parquet")
-        assert build_command_words(project, found) == (*words, "--holdout", "logs/held_out.parquet")
+        assert build_command_words(project, result) == (
+            *words,
+            "--holdout",
+            "logs/held_out.parquet",
+        )
         await page.sees("friction that grows with the load on the gear: joint 2")
         await page.sees("Confirmed")
         await page.sees("Preview. Joint 2: measured and predicted")
@@ -231,8 +235,8 @@ def test_a_motion_is_found_and_taken(arm: Path) -> None:
         await page.sees("modeler excite models/5.json --duration 2 --out")
         await page.click("Find the motion")
         step = page.project.steps[-1]
-        found = json.loads((arm / step.result_file).read_text())
-        await page.sees(f"Condition number {found['condition_scaled']:.4g}")
+        data = json.loads((arm / step.result_file).read_text())
+        await page.sees(f"Condition number {data['condition_scaled']:.4g}")
         motion = np.loadtxt(arm / step.output, delimiter=",", skiprows=1)
         table = pq.read_table(io.BytesIO(await page.saves("Download Parquet")))
         columns = np.column_stack([table[name] for name in ("time", "q1", "q2", "q3")])
@@ -304,9 +308,9 @@ def test_base_parameters_are_derived_of_a_built_in_robot(tmp_path: Path) -> None
         page.choose("tabs", "Base parameters")
         await page.click("Derive")
         step = page.project.steps[-1]
-        found = json.loads((tmp_path / step.result_file).read_text())
+        data = json.loads((tmp_path / step.result_file).read_text())
         page.choose("tabs", "Base parameters")
-        await page.sees(f"{len(found['base'])} base parameters (")
+        await page.sees(f"{len(data['base'])} base parameters (")
         assert page.texts().count("of an earlier table: derive again") == 0
         (tmp_path / "robot.toml").rename(tmp_path / "kept")
         (tmp_path / "robot.toml").mkdir()  # nothing can be written there

@@ -17,8 +17,8 @@ def guess(columns: tuple[str, ...]) -> LogGuess:
     """Of a log whose names are not ours."""
     time, first, second = columns
     words = [f"time={time}", f"q1={first}:deg", f"q2={second}:deg"]
-    found = build_choices(parse_map_options(words), build_default_joints(2), columns)
-    return LogGuess(dict.fromkeys(columns, ""), found, (), 2, "", ())
+    result = build_choices(parse_map_options(words), build_default_joints(2), columns)
+    return LogGuess(dict.fromkeys(columns, ""), result, (), 2, "", ())
 
 
 def screen(folder: Path, project: Project) -> Any:
@@ -29,9 +29,9 @@ def screen(folder: Path, project: Project) -> Any:
     Workspace(folder).save(project)
     with hub_of(folder) as hub:
         hub.studios.append(Studio(hub, "data"))
-    own = DataScreen(hub.studios[0])
-    own.joints = build_default_joints(2)
-    return own
+    view = DataScreen(hub.studios[0])
+    view.joints = build_default_joints(2)
+    return view
 
 
 def come(own: Any, **logs: tuple[str, ...]) -> Project:
@@ -49,14 +49,14 @@ def come(own: Any, **logs: tuple[str, ...]) -> Project:
 
 
 def test_the_split_of_the_first_log_stays(tmp_path: Path) -> None:
-    own = screen(tmp_path, Project())
-    first = come(own, a=GERMAN)
+    view = screen(tmp_path, Project())
+    first = come(view, a=GERMAN)
     assert first.mapping == ("time=Zeit", "q<j>=Winkel_{j}:deg")
     assert (first.collect_words("train"), first.collect_words("test")) == (["a@:7"], ["a@7:"])
-    second = come(own, b=GERMAN)
+    second = come(view, b=GERMAN)
     assert second.logs[0] == first.logs[0]
     assert second.collect_words("train") == ["a@:7", "b"]
-    third = come(own, c=ROS)
+    third = come(view, c=ROS)
     assert third.logs[:2] == second.logs
     assert third.mapping == ("auto",)  # a guess for each log
 
@@ -70,16 +70,16 @@ def test_the_mapping_that_was_chosen_stays(tmp_path: Path) -> None:
     """Also where it is what names say already, or is nothing: it is no guess."""
     for chosen in (("q<j>=Winkel_{j}:mrad",), (), ("time=Zeit", "q<j>=Winkel_{j}:deg")):
         logs = (ProjectLog("a", (TimeRange(),)),)
-        own = screen(tmp_path, Project(mapping=chosen, mapped=True, logs=logs))
-        assert come(own, a=GERMAN, b=ROS).mapping == chosen
+        view = screen(tmp_path, Project(mapping=chosen, mapped=True, logs=logs))
+        assert come(view, a=GERMAN, b=ROS).mapping == chosen
 
 
 def test_each_by_its_own_guess_keeps_what_was_chosen(tmp_path: Path) -> None:
     chosen = ("q<j>=Winkel_{j}:mrad",)
-    own = screen(tmp_path, Project(mapping=chosen, mapped=True))
-    come(own, a=GERMAN, b=ROS)
-    own.apply_each_guess()
-    project = own.studio.project
+    view = screen(tmp_path, Project(mapping=chosen, mapped=True))
+    come(view, a=GERMAN, b=ROS)
+    view.apply_each_guess()
+    project = view.studio.project
     assert project.mapping == ("auto", *chosen)
-    assert own.resolve_columns(guess(GERMAN))["q1"].unit == "mrad"
-    assert own.resolve_columns(guess(ROS))["q1"].unit == "deg"
+    assert view.resolve_columns(guess(GERMAN))["q1"].unit == "mrad"
+    assert view.resolve_columns(guess(ROS))["q1"].unit == "deg"

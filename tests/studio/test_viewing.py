@@ -64,15 +64,17 @@ def test_thinning_keeps_every_extreme_and_the_ends() -> None:
         curves = tuple(rng.normal(size=rows).cumsum() for _ in range(3))
         curves[1][rng.integers(0, rows, rows // 9)] = np.nan
         curves[2][rng.integers(0, rows, 5)] = 1e6
-        kept = thin_curves(curves, 1500)
-        assert kept.size <= 1500 and kept[0] == 0 and kept[-1] == rows - 1
-        assert (np.diff(kept) > 0).all()
+        stored = thin_curves(curves, 1500)
+        assert stored.size <= 1500 and stored[0] == 0 and stored[-1] == rows - 1
+        assert (np.diff(stored) > 0).all()
         size = -(-rows // (1498 // 6))  # of bins
         for values in curves:
             for start in range(0, rows, size):
-                own = values[start : start + size]
-                there = values[kept[(kept >= start) & (kept < start + size)]]
-                assert np.nanmax(there) == np.nanmax(own) and np.nanmin(there) == np.nanmin(own)
+                actual = values[start : start + size]
+                there = values[stored[(stored >= start) & (stored < start + size)]]
+                assert np.nanmax(there) == np.nanmax(actual) and np.nanmin(there) == np.nanmin(
+                    actual
+                )
 
 
 # Logs.
@@ -141,13 +143,13 @@ def test_a_file_that_went_away_or_changed_is_seen(tmp_path) -> None:
 @pytest.mark.rotating("long tests of studio")
 def test_the_verdict_is_that_of_the_command(folder, capsys) -> None:
     assert main(["compare", "m.json", "b.parquet"]) == 0
-    told = capsys.readouterr().out
-    found = viewing.verdict("m.json", ["b.parquet"])
-    assert found.joints == ("1", "2", "3")
-    assert all(sentence in told for sentence in found.sentences)
-    assert max(zip(found.errors, found.joints, strict=True))[1] == "2"  # the hidden effect's
+    text = capsys.readouterr().out
+    result = viewing.verdict("m.json", ["b.parquet"])
+    assert result.joints == ("1", "2", "3")
+    assert all(sentence in text for sentence in result.sentences)
+    assert max(zip(result.errors, result.joints, strict=True))[1] == "2"  # the hidden effect's
     assert {"velocity", "position", "acceleration", "load", "travel", "time", "qc1"} <= {
-        channel for channel, _ in found.channels
+        channel for channel, _ in result.channels
     }
 
 
@@ -156,9 +158,9 @@ def test_a_joint_that_rests_is_not_judged(folder, tmp_path) -> None:
     rest = pa.array(np.full(table.num_rows, 0.3))
     place = str(tmp_path / "rest.parquet")
     pyarrow.parquet.write_table(table.set_column(table.column_names.index("q3"), "q3", rest), place)
-    found = viewing.verdict("m.json", [place])
-    assert found.joints == ("1", "2")
-    assert found.unjudged[0].startswith("Joint 3: not judged: ")
+    result = viewing.verdict("m.json", [place])
+    assert result.joints == ("1", "2")
+    assert result.unjudged[0].startswith("Joint 3: not judged: ")
 
 
 def test_torques_are_those_of_the_comparison(comparison) -> None:
@@ -202,9 +204,9 @@ def test_the_residual_over_a_channel_is_that_of_numpy(comparison, channel: str) 
     )
     expected = []
     for low, high in pairwise(edges):
-        own = (x >= low) & ((x < high) | ((high == edges[-1]) & (x <= high)))
-        if own.sum() >= 8:
-            expected.append((x[own].mean(), e[own].mean()))
+        actual = (x >= low) & ((x < high) | ((high == edges[-1]) & (x <= high)))
+        if actual.sum() >= 8:
+            expected.append((x[actual].mean(), e[actual].mean()))
     np.testing.assert_allclose(np.column_stack([means.x, means.y]), expected, rtol=1e-9)
 
 
@@ -303,5 +305,5 @@ def test_a_log_that_is_called_differently_is_judged_as_the_command_judges_it(fol
     pa.parquet.write_table(table.rename_columns(names), "other.parquet")
     with pytest.raises(DataError, match="no column"):
         viewing.verdict("m.json", ["other.parquet"])
-    found = viewing.verdict("m.json", ["other.parquet", "--map", "auto"])
-    assert found.errors == viewing.verdict("m.json", ["b.parquet"]).errors
+    result = viewing.verdict("m.json", ["other.parquet", "--map", "auto"])
+    assert result.errors == viewing.verdict("m.json", ["b.parquet"]).errors

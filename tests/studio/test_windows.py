@@ -78,7 +78,7 @@ def test_a_step_is_about_the_model_that_it_began_with(tmp_path: Path, monkeypatc
     steps = tuple(Step(n, n - 1, Task("fit")) for n in (1, 2))
     Workspace(tmp_path).save(Project("robot.toml", 2, steps=steps))
     with hub_of(tmp_path) as hub:
-        monkeypatch.setattr("modeler.studio.studio.RunningCommand", lambda *given: Slow(hub))
+        monkeypatch.setattr("modeler.studio.studio.RunningCommand", lambda *inputs: Slow(hub))
         (step,) = run_tasks(hub, commands.diagnose)
         assert step.parent == 2 and hub.project.current == 1
 
@@ -113,15 +113,15 @@ def test_no_page_is_wider_than_its_window_with_the_long_names_of_ros(tmp_path, w
     rows = np.column_stack([time, *(np.sin(time * k + k) for k in range(1, 7))])
     head = ",".join(["time", *names])
     np.savetxt(folder / log, rows, delimiter=",", header=head, comments="", fmt="%.6f")
-    mapping = tuple(f"{own}<j>={TOPIC}{kind}[{LINK}_{{j}}]" for own, kind in kinds.items())
+    mapping = tuple(f"{item}<j>={TOPIC}{kind}[{LINK}_{{j}}]" for item, kind in kinds.items())
     logs = (ProjectLog(log, (TimeRange(),)),)
     Workspace(folder).save(Project("robot.toml", mapping=mapping, mapped=True, logs=logs))
     with served(folder) as studio:
-        own = window(viewport={"width": 1280, "height": 800}).open(studio)
-        own.go("2  Data")
-        own.page.wait_for_selector(".mapping-chip")
-        own.page.wait_for_selector(".js-plotly-plot .main-svg")
-        assert own.page.evaluate("document.documentElement.scrollWidth") <= 1280
-        own.go("3  Fit")
-        assert own.page.evaluate("document.documentElement.scrollWidth") <= 1280
-        assert own.complaints == []
+        file = window(viewport={"width": 1280, "height": 800}).open(studio)
+        file.go("2  Data")
+        file.page.wait_for_selector(".mapping-chip")
+        file.page.wait_for_selector(".js-plotly-plot .main-svg")
+        assert file.page.evaluate("document.documentElement.scrollWidth") <= 1280
+        file.go("3  Fit")
+        assert file.page.evaluate("document.documentElement.scrollWidth") <= 1280
+        assert file.complaints == []

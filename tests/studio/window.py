@@ -57,9 +57,9 @@ def served(folder: Path, *options: str) -> Iterator[Served]:
     ) as process:
         try:
             assert process.stdout is not None
-            found = next((m for x in process.stdout if (m := re.search(r"http://\S+", x))), None)
-            assert found, "the studio printed no address"
-            yield Served(folder, found[0], process)
+            result = next((m for x in process.stdout if (m := re.search(r"http://\S+", x))), None)
+            assert result, "the studio printed no address"
+            yield Served(folder, result[0], process)
         finally:
             process.send_signal(signal.SIGINT)
             try:

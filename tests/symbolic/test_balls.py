@@ -54,10 +54,10 @@ def test_every_function_of_the_language():
     names = ("sin", "cos", "tan", "sqrt", "exp", "abs", "sign", "tanh")
     outputs = [graph.call(name, x) for name in names]
     outputs += [graph.power(x, graph.constant(1) / 3), graph.pi() * x, 1 / x, -x, graph.constant(0)]
-    found = build_ball_function(graph, outputs, {})({"x": build_ball(0.75)})
+    result = build_ball_function(graph, outputs, {})({"x": build_ball(0.75)})
     rough = [getattr(math, name)(0.75) for name in ("sin", "cos", "tan", "sqrt", "exp")]
     rough += [0.75, 1.0, math.tanh(0.75), 0.75 ** (1 / 3), math.pi * 0.75, 1 / 0.75, -0.75, 0.0]
-    for ball, near in zip(found, rough, strict=True):
+    for ball, near in zip(result, rough, strict=True):
         assert abs(float(ball.mid()) - near) < 1e-14 and float(ball.rad()) < 1e-14
 
 

@@ -15,9 +15,9 @@ def test_every_operation_with_every_sign() -> None:
     with np.errstate(all="ignore"):
         for s, t in itertools.product((1.0, -1.0), repeat=2):
             u, v = (x if s > 0 else -x), (y if t > 0 else -y)
-            found = graph.evaluate_outputs([u + v, u * v, u / v, -(u + v)], values)
-            told = [s * a + t * b, (s * a) * (t * b), (s * a) / (t * b), -(s * a + t * b)]
-            for one, other in zip(found, told, strict=True):
+            actual = graph.evaluate_outputs([u + v, u * v, u / v, -(u + v)], values)
+            lines = [s * a + t * b, (s * a) * (t * b), (s * a) / (t * b), -(s * a + t * b)]
+            for one, other in zip(actual, lines, strict=True):
                 np.testing.assert_array_equal(one, other)
             for name in ("sin", "cos", "tan", "exp", "abs", "sign", "tanh", "sqrt"):
                 function = getattr(np, name)

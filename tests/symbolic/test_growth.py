@@ -28,11 +28,11 @@ def chain(rows: int) -> str:
 
 def counted(monkeypatch, rows: int) -> tuple[int, int]:
     """(nodes of the regressor's graph, coefficients turned back from tangents)."""
-    calls, told = [], field_module.express_in_cosines
+    calls, text = [], field_module.express_in_cosines
 
     def counted_call(*args):
         calls.append(args)
-        return told(*args)
+        return text(*args)
 
     monkeypatch.setattr(field_module, "express_in_cosines", counted_call)
     model = derive_model(parse_robot_text(chain(rows), "c"))
@@ -52,14 +52,14 @@ LETTERS = {name: sympy.Symbol(name, real=True) for name in "abcde"}
 
 
 @with_cases(
-    "text, told",
+    "text, message",
     ("(a + b + c + d + e)**60", "has 635376 terms"),
     ("*".join(f"(a + b + c + {k}*d)" for k in range(1, 6)), "has 1024 terms when written"),
     ("(0.999**100)**100", "an exact number of .* bits"),
     ("a*tan(pi/2)", "not finite"),
 )
-def test_constants_that_would_not_end_are_refused(text, told):
-    with pytest.raises(DerivationError, match=told):
+def test_constants_that_would_not_end_are_refused(text, message):
+    with pytest.raises(DerivationError, match=message):
         fold_expression(parse_expression(text), LETTERS)
 
 
@@ -78,10 +78,10 @@ def test_the_refusal_names_row_and_column():
 def test_a_robot_with_a_long_angle_has_an_exact_answer():
     long = chain(3).replace('"-pi/2"', '"d0 + d1 + d2 + r0 + r1 + r2"')
     named = chain(3).replace('"-pi/2"', '"t"').replace("[mdh]", "t = 0.99\n[mdh]")
-    found, other = (
+    result, other = (
         derive_base_parameters(derive_model(parse_robot_text(x, "c"))) for x in (long, named)
     )
-    assert found.proof.kind == "exact" and found.rank == other.rank
+    assert result.proof.kind == "exact" and result.rank == other.rank
 
 
 def test_a_high_power_is_one_node():

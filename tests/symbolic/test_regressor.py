@@ -61,8 +61,8 @@ def test_recursion_agrees_with_the_regressor(name):
         values |= {f"{kind}[{i}]": array[:, i] for i in range(array.shape[1])}
 
     def evaluated(expressions) -> np.ndarray:
-        found = model.graph.evaluate_outputs(expressions, values)
-        return np.stack([x + np.zeros(len(q)) for x in found], axis=-1)
+        actual = model.graph.evaluate_outputs(expressions, values)
+        return np.stack([x + np.zeros(len(q)) for x in actual], axis=-1)
 
     tau = evaluate_regressor(model, (q, qd, qdd)) @ chi
     scale = np.abs(tau).max()

@@ -23,8 +23,8 @@ def system_of(name: str, source: str | None = None) -> PhysicalSystem:
 
 def example() -> dict[str, float]:
     """The wrist of `[terms.example]`."""
-    found = read_printed_terms(model_of("wrist").robot).example
-    return {name: float(value) for name, value in found.items()}
+    result = read_printed_terms(model_of("wrist").robot).example
+    return {name: float(value) for name, value in result.items()}
 
 
 def point_of(system: PhysicalSystem, letters: dict[str, float]) -> np.ndarray:

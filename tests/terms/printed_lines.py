@@ -35,9 +35,9 @@ def compiled(name: str | Path) -> CompiledModel:
 
 def run_lines(lines: Sequence[str], values: Mapping[str, float]) -> dict[str, float]:
     """Every name that the lines define."""
-    found = dict(values)
-    exec("\n".join(lines), dict(FUNCTIONS), found)
-    return found
+    table = dict(values)
+    exec("\n".join(lines), dict(FUNCTIONS), table)
+    return table
 
 
 def known(derivation, u, ud=(), udd=(), beta=()):
@@ -82,23 +82,23 @@ def printed_coupling(derivation, found):
     """J_t and b of u' = J_t q', u'' = J_t q'' + b, as the words above the lines say."""
     closure, names = derivation.model.closure, [j.name for j in derivation.model.robot.free_joints]
     assert closure is not None
-    given, solved, count = list(closure.actuated), list(closure.solved), len(names)
+    inputs, solved, count = list(closure.actuated), list(closure.solved), len(names)
 
     def matrix(letter: str, rows: Sequence[str], columns: Sequence[int]) -> np.ndarray:
         entries = [found.get(f"{letter}{r}_{names[k]}", 0.0) for r in rows for k in columns]
         return np.reshape(entries, (len(rows), len(columns)))
 
-    J, b = np.zeros((count, len(given))), np.array([found.get(f"b{n}", 0.0) for n in names])
+    J, b = np.zeros((count, len(inputs))), np.array([found.get(f"b{n}", 0.0) for n in names])
     platform = list(closure.platform or ())
     if any(name.startswith("Jt") for name in found):
-        J[solved] = matrix("Jt", [names[u] for u in solved], given)
+        J[solved] = matrix("Jt", [names[u] for u in solved], inputs)
         rows = [p for p in platform if p in solved]
-        J[rows] = matrix("Jp", [names[p] for p in rows], given)
-        J[given] = np.eye(len(given))
+        J[rows] = matrix("Jp", [names[p] for p in rows], inputs)
+        J[inputs] = np.eye(len(inputs))
         return J, b
     numbers = [str(r + 1) for r in range(len(closure.equations))]
     F = matrix("F", numbers, range(count))
     h = np.array([found.get(f"h{r}", 0.0) for r in numbers])
     b[solved] = np.linalg.solve(F[:, solved], -h)
-    J[given], J[solved] = np.eye(len(given)), -np.linalg.solve(F[:, solved], F[:, given])
+    J[inputs], J[solved] = np.eye(len(inputs)), -np.linalg.solve(F[:, solved], F[:, inputs])
     return J, b

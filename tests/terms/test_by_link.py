@@ -31,16 +31,16 @@ def number(x, values):
 
 def placed(model, u):
     """{row: frame in floats}; u are the values of the free variables."""
-    geometry, values, found = model.geometry, model.geometry.values, {}
+    geometry, values, items = model.geometry, model.geometry.values, {}
     for k, row in enumerate(geometry.rows):
         table = (row.gamma, row.b, row.alpha, row.d, row.theta, row.r)
         gamma, b, alpha, d, theta, r = (number(x, values) for x in table)
         if row.index is not None:
             q = row.rate * sum(float(c) * u[i] for i, c in geometry.forms[row.index].items())
             theta, r = (theta + q, r) if row.joint.is_revolute else (theta, r + q)
-        before = m.GROUND if row.parent is None else found[row.parent]
-        found[k] = before.then(gamma, b, alpha, d, theta, r)
-    return found
+        before = m.GROUND if row.parent is None else items[row.parent]
+        items[k] = before.then(gamma, b, alpha, d, theta, r)
+    return items
 
 
 @pytest.mark.parametrize("name", ["odd", "sr400", *rotating("wrist", "panda", "evra")])
@@ -57,15 +57,15 @@ def test_the_printed_energy_functions_are_those_of_moving_points(name):
     text = run_lines(format_sheet(equation.sheet).splitlines(), start)
     frames = m.moving(lambda u: m.Posture(placed(model, u), {}), u, speed).bodies
     gravity = np.array([number(x, start) for x in model.geometry.gravity])
-    told = 0
+    message = 0
     for k in by_link._find_body_rows(model):
         w, v = m.rigid(frames[k])[:2]
         h = m.kinetic(w, v) / 2
         h[6:] -= np.array([*(gravity @ frames[k].turn.real), gravity @ frames[k].place.real])
         names = [f"h{p}_{model.geometry.rows[k].joint.name}" for p in m.INERTIA]
         np.testing.assert_allclose([text.get(n, 0.0) for n in names], h, rtol=1e-10, atol=1e-11)
-        told += sum(name in text for name in names)
-    assert told > 10
+        message += sum(name in text for name in names)
+    assert message > 10
 
 
 def test_the_printed_form_of_kane_is_that_of_the_paper():
@@ -119,12 +119,12 @@ def test_a_wrong_recursion_is_seen(monkeypatch):
 def test_the_command_prints_and_writes_both(capsys, tmp_path):
     place = tmp_path / "w.json"
     assert main(["derive", "wrist", "--energy", "--kane", "--json", str(place)]) == 0
-    out, told = capsys.readouterr().out, json.loads(place.read_text())
+    out, text = capsys.readouterr().out, json.loads(place.read_text())
     assert "vCMa = -at3*qd1*a_2 + at2*qd1*a_3" in out and "hXX_2 = omega1_2**2/2" in out
     assert "PJ1" not in out
-    check_schema("derive", told)
-    assert max(told["energy"]["difference"], told["kane"]["difference"]) < 1e-12
-    assert {"vCMc", "beta53", "F6"} <= {d["name"] for d in told["kane"]["definitions"]}
+    check_schema("derive", text)
+    assert max(text["energy"]["difference"], text["kane"]["difference"]) < 1e-12
+    assert {"vCMc", "beta53", "F6"} <= {d["name"] for d in text["kane"]["definitions"]}
     assert main(["derive", "stewart", "--kane"]) == 1
     assert "--kane is written for robots without loops; leave it out" in capsys.readouterr().err
 

@@ -48,10 +48,10 @@ def expression(text: str) -> sympy.Expr:
 
 def in_known(solution, letter: str) -> sympy.Expr:
     """A formula with all earlier ones put in."""
-    found: dict[sympy.Symbol, sympy.Expr] = {}
+    table: dict[sympy.Symbol, sympy.Expr] = {}
     for step in solution.steps:
-        value = expression(format_formula(step, solution.system)).subs(found)
-        found[sympy.Symbol(step.letter)] = value
+        value = expression(format_formula(step, solution.system)).subs(table)
+        table[sympy.Symbol(step.letter)] = value
         if step.letter == letter:
             return value
     raise AssertionError(letter)
@@ -165,15 +165,15 @@ def test_a_fit_with_a_wrong_length_gives_the_right_coefficients():
     system, rng = system_of("wrist"), np.random.default_rng(3)
     letters = random_letters(system, rng) | {"bl1": 0.15}
     base = derive_base_parameters(true)
-    own = build_physical_system(true, base, "base")
+    item = build_physical_system(true, base, "base")
     columns = {p.name: p.column for p in base.parameters}
     states = draw_random_states(true, 60, rng)
     true_W, W = (
         evaluate_regressor(m, states)[..., [columns[d] for d in system.base]].reshape(-1, 17)
         for m in (true, model_of("wrist"))
     )
-    assert own.data == system.base
-    tau = true_W @ data_of(own, letters)
+    assert item.data == system.base
+    tau = true_W @ data_of(item, letters)
     beta, *_ = np.linalg.lstsq(W, tau, rcond=None)
     assert np.abs(tau - W @ beta).max() < 1e-9 * np.abs(tau).max()
     assert system.to_data @ beta == pytest.approx(data_of(system, letters), rel=1e-9, abs=1e-9)
@@ -218,8 +218,8 @@ def sets_of(name: str) -> list[tuple[str, ...]]:
     tried = (tuple(chance.sample(system.letters, size)) for _ in itertools.count())
     every = itertools.combinations(system.letters, size) if name in EVERY else tried
     wanted = len(system.letters) - size
-    found = (known for known in every if len(find_determined(system, known)[0]) == wanted)
-    return list(itertools.islice(found, SAMPLED.get(name)))
+    values = (known for known in every if len(find_determined(system, known)[0]) == wanted)
+    return list(itertools.islice(values, SAMPLED.get(name)))
 
 
 def check(name: str, known: tuple[str, ...]) -> int:
@@ -230,25 +230,25 @@ def check(name: str, known: tuple[str, ...]) -> int:
     data, place = data_of(system, truth), dict[str, object]()
     exec("\n".join(format_solution_lines(solution, "python")), place)
     function = place["physical_parameters"]
-    given = model_of(name).robot.evaluate_symbols() | truth
-    given |= dict(zip(system.data, data, strict=True))
+    values = model_of(name).robot.evaluate_symbols() | truth
+    values |= dict(zip(system.data, data, strict=True))
     names = function.__code__.co_varnames[: function.__code__.co_argcount]
-    found = function(**{x: given[x] for x in names})
-    assert isinstance(found, list) == any(step.equation is not None for step in solution.steps)
-    robots = found if isinstance(found, list) else [found]
+    result = function(**{x: values[x] for x in names})
+    assert isinstance(result, list) == any(step.equation is not None for step in solution.steps)
+    robots = result if isinstance(result, list) else [result]
     best = min(robots, key=lambda robot: max([abs(robot[x] - truth[x]) for x in robot] or [0.0]))
     assert verify_solution(solution, 5) == 5 and not solution.without_formula
     assert {*solution.solved_letters, *solution.undetermined} == {*system.letters} - {*known}
     if solution.missing:
         rank = find_determined(system, known)[1]
         assert find_determined(system, [*known, solution.undetermined[0]])[1] == rank
-    own = derive_values(
+    item = derive_values(
         solution, data, np.zeros((len(data),) * 2), {x: truth[x] for x in known}, near=truth
     )
-    assert set(best) == set(solution.solved_letters) == set(own.letters)
+    assert set(best) == set(solution.solved_letters) == set(item.letters)
     for x, value in best.items():
         assert value == pytest.approx(truth[x], rel=1e-5, abs=1e-5), (x, known)
-        assert value == pytest.approx(own.get_value(x), rel=1e-5, abs=1e-5), (x, known)
+        assert value == pytest.approx(item.get_value(x), rel=1e-5, abs=1e-5), (x, known)
     for robot in robots if not solution.undetermined else ():  # each of them has the same data
         assert data_of(system, truth | robot) == pytest.approx(data, rel=1e-5, abs=1e-5), known
     return len(robots)

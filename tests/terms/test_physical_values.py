@@ -37,35 +37,35 @@ def test_values_and_sigmas_stand_a_monte_carlo_test(name, known, share):
     truth = random_letters(system, rng)
     data = data_of(system, truth)
     C = covariance_of(data, rng, share)
-    given = {x: truth[x] for x in solution.known}
+    cells = {x: truth[x] for x in solution.known}
     sigmas = {solution.known[0]: share * abs(truth[solution.known[0]])}
-    told = derive_values(solution, data, C, given, sigmas, truth)
-    assert told.values == pytest.approx([truth[x] for x in told.letters], rel=1e-9)
-    assert told.shares.sum(axis=1) == pytest.approx(1.0)
+    result = derive_values(solution, data, C, cells, sigmas, truth)
+    assert result.values == pytest.approx([truth[x] for x in result.letters], rel=1e-9)
+    assert result.shares.sum(axis=1) == pytest.approx(1.0)
     L = np.linalg.cholesky(C)
     draws = []
     for _ in range(120):
-        noisy = {x: v + sigmas.get(x, 0.0) * rng.normal() for x, v in given.items()}
+        noisy = {x: v + sigmas.get(x, 0.0) * rng.normal() for x, v in cells.items()}
         sample = data + L @ rng.normal(size=len(data))
         draws.append(derive_values(solution, sample, C, noisy, sigmas, truth).values)
-    z = (np.array(draws) - told.values) / told.sigmas
-    assert np.all(np.abs(z.std(axis=0) - 1) < 0.25), told.letters
+    z = (np.array(draws) - result.values) / result.sigmas
+    assert np.all(np.abs(z.std(axis=0) - 1) < 0.25), result.letters
     assert np.all(np.abs(z.mean(axis=0)) < 0.35)
 
 
 def test_a_quotient_that_may_be_by_zero_is_doubted_or_refused():
     system, truth = system_of("wrist"), example()
     solution = solve(system, (*SEVEN, "ct2"))
-    given = {x: truth[x] for x in solution.known}
+    cells = {x: truth[x] for x in solution.known}
     data = data_of(system, truth)
-    small = given | {"ct2": 0.001}
+    small = cells | {"ct2": 0.001}
     sigmas = {"ct2": 0.001}
-    told = derive_values(solution, data, np.eye(len(data)) * 1e-12, small, sigmas)
-    assert told.doubtful["cm"].startswith(
+    result = derive_values(solution, data, np.eye(len(data)) * 1e-12, small, sigmas)
+    assert result.doubtful["cm"].startswith(
         "cm is a quotient by ct2 = 0.001 +- 0.001, which may be 0"
     )
     with pytest.raises(DataError, match="wrist: cm is a quotient by ct2, which is 0 in this fit"):
-        derive_values(solution, data, np.zeros((len(data),) * 2), given | {"ct2": 0.0})
+        derive_values(solution, data, np.zeros((len(data),) * 2), cells | {"ct2": 0.0})
 
 
 def test_several_roots_are_told_and_none_is_chosen():
@@ -79,10 +79,10 @@ def test_several_roots_are_told_and_none_is_chosen():
         derive_values(solution, data, C, {x: truth[x] for x in solution.known})
     known = {x: truth[x] for x in solution.known}
     for near, values in ((3.9, truth), (2.0, None)):
-        told = derive_values(solution, data, C, known, near={"cm": near})
-        letters = known | dict(zip(told.letters, map(float, told.values), strict=True))
+        result = derive_values(solution, data, C, known, near={"cm": near})
+        letters = known | dict(zip(result.letters, map(float, result.values), strict=True))
         assert data_of(system, letters) == pytest.approx(data, abs=1e-9)
-        assert values is None or told.get_value("cJ11") == pytest.approx(truth["cJ11"])
+        assert values is None or result.get_value("cJ11") == pytest.approx(truth["cJ11"])
 
 
 @pytest.mark.rotating("long tests of terms")
@@ -96,15 +96,17 @@ def test_known_parameters_are_tested_and_the_test_is_honest():
     L, z = np.linalg.cholesky(C), []
     sigmas = {"cm": 0.004}
     for _ in range(30):
-        given = {x: truth[x] + sigmas.get(x, 0.0) * rng.normal() for x in solution.known}
+        cells = {x: truth[x] + sigmas.get(x, 0.0) * rng.normal() for x in solution.known}
         sample = data + L @ rng.normal(size=len(data))
-        rows = known_values.check_known(solution, sample, C, given, sigmas)
+        rows = known_values.check_known(solution, sample, C, cells, sigmas)
         assert {"cm", "ct2", "bt1"} <= {row.letter for row in rows}
         z.append([row.z for row in rows])
     assert 0.8 < np.sqrt(np.mean(np.square(z))) < 1.2
     wrong = {x: truth[x] for x in solution.known} | {"ct2": truth["ct2"] * 1.05}
-    told = {row.letter: row for row in known_values.check_known(solution, data, C, wrong, sigmas)}
-    assert told["ct2"].is_contradictory and told["ct2"].implied_value == pytest.approx(
+    content = {
+        row.letter: row for row in known_values.check_known(solution, data, C, wrong, sigmas)
+    }
+    assert content["ct2"].is_contradictory and content["ct2"].implied_value == pytest.approx(
         truth["ct2"], rel=0.01
     )
     assert not known_values.check_known(solve(system, (*SEVEN, "cm")), data, C, wrong, sigmas)
@@ -135,11 +137,13 @@ def test_a_wrong_cad_entry_is_found(seed):
     h = 1e-6
     slope = np.abs(data_of(system, truth | {letter: truth[letter] + h}) - data) / h
     size = 15 / np.max(slope / np.sqrt(np.diag(C)))
-    found = known_values.compare_cad(system, sample, C, truth | {letter: truth[letter] + size})
-    named = {e.letters[0]: e for e in found.explanations if len(e.letters) == 1 and e.is_sufficient}
-    assert letter in named, (letter, found.suspicious, found.explanations)
+    result = known_values.compare_cad(system, sample, C, truth | {letter: truth[letter] + size})
+    named = {
+        e.letters[0]: e for e in result.explanations if len(e.letters) == 1 and e.is_sufficient
+    }
+    assert letter in named, (letter, result.suspicious, result.explanations)
     assert named[letter].fitted_values[0] == pytest.approx(truth[letter], abs=size / 3)
-    assert named[letter].chi_squared < found.chi_squared / 3
+    assert named[letter].chi_squared < result.chi_squared / 3
 
 
 def test_two_wrong_cad_entries_are_found_as_a_pair():
@@ -147,9 +151,9 @@ def test_two_wrong_cad_entries_are_found_as_a_pair():
     data = data_of(system, truth)
     C = covariance_of(data, rng, 0.001)
     wrong = truth | {"at3": truth["at3"] * 1.1, "bJ12": truth["bJ12"] * 1.2}
-    found = known_values.compare_cad(system, data, C, wrong)
-    assert {"at3", "bJ12"} in [set(e.letters) for e in found.explanations]
-    assert not [e for e in found.explanations if len(e.letters) == 1]
+    result = known_values.compare_cad(system, data, C, wrong)
+    assert {"at3", "bJ12"} in [set(e.letters) for e in result.explanations]
+    assert not [e for e in result.explanations if len(e.letters) == 1]
 
 
 def test_cad_tolerances_widen_and_missing_values_are_told():
@@ -177,11 +181,11 @@ def test_cad_tolerances_widen_and_missing_values_are_told():
     ("aM=3", r'--known: got "aM" \(did you mean "am"\?\); expected physical parameters of wr'),
 )
 def test_known_parameters_as_they_are_typed(text, message):
-    given = known_values.parse_known_values(
+    known = known_values.parse_known_values(
         " am=12+-0.1, bm = 6e0 ,al1=0.2,cm,", system_of("wrist")
     )
-    assert given.names == ("am", "bm", "cm")  # al1 has no effect
-    assert given.values == {"am": 12.0, "bm": 6.0} and given.sigmas == {"am": 0.1}
+    assert known.names == ("am", "bm", "cm")  # al1 has no effect
+    assert known.values == {"am": 12.0, "bm": 6.0} and known.sigmas == {"am": 0.1}
     with pytest.raises(RobotError, match=message):
         known_values.parse_known_values(text, system_of("wrist"))
 
@@ -205,9 +209,9 @@ def test_cad_files_that_are_none(tmp_path, text, message):
 def test_cad_files_as_they_are_written(tmp_path):
     path = tmp_path / "cad.toml"
     path.write_text("relative_sigma = 0.1\nam = 12\nbm = [6.0, 0.2]\n")
-    given = known_values.read_cad_file(path, system_of("wrist"))
-    assert given.values == {"am": 12.0, "bm": 6.0}
-    assert given.sigmas == pytest.approx({"am": 1.2, "bm": 0.2})
+    known = known_values.read_cad_file(path, system_of("wrist"))
+    assert known.values == {"am": 12.0, "bm": 6.0}
+    assert known.sigmas == pytest.approx({"am": 1.2, "bm": 0.2})
     with pytest.raises(RobotError, match=r"none\.toml: cannot be read"):
         known_values.read_cad_file(tmp_path / "none.toml", system_of("wrist"))
     with pytest.raises(RobotError, match=r"here: the robot file has no values .*terms.example"):
@@ -253,32 +257,32 @@ def jacobian(system) -> np.ndarray:
 def brute_force(system, size: int) -> list[tuple[str, ...]]:
     """Sets whose complement has independent columns, by singular values."""
     J, n = jacobian(system), len(system.letters)
-    found = []
+    values = []
     for known in combinations(range(n), size):
         others = [k for k in range(n) if k not in known]
         if len(others) <= len(J) and np.linalg.matrix_rank(J[:, others], tol=1e-9) == len(others):
-            found.append(tuple(system.letters[k] for k in known))
-    return found
+            values.append(tuple(system.letters[k] for k in known))
+    return values
 
 
 @pytest.mark.rotating("long tests of terms")
 def test_the_wrist_as_counted_elsewhere():
-    found = sufficient_sets.find_known_sets(system_of("wrist"))
-    assert (found.size, found.smallest, found.count, found.candidate_count) == (
+    matches = sufficient_sets.find_known_sets(system_of("wrist"))
+    assert (matches.size, matches.smallest, matches.count, matches.candidate_count) == (
         8,
         8,
         61879,
         1081575,
     )
-    assert dict(found.classes) == CLASSES
-    contains = found.contains
+    assert dict(matches.classes) == CLASSES
+    contains = matches.contains
     assert contains["cm"] == 9062 and contains["bl1"] == contains["ct1"] == 34516
     assert contains["aJ11"] == 34077 and contains["bt3"] == 14327 and contains["cJ12"] == 14306
 
 
 def test_seven_never_suffice():
-    found = sufficient_sets.find_known_sets(system_of("wrist"), 7)
-    assert (found.count, found.candidate_count, found.smallest) == (0, 480700, 8)
+    matches = sufficient_sets.find_known_sets(system_of("wrist"), 7)
+    assert (matches.count, matches.candidate_count, matches.smallest) == (0, 480700, 8)
 
 
 def class_of(system, members):
@@ -301,16 +305,16 @@ def class_of(system, members):
 def test_counts_by_brute_force(name, size):
     system = system_of(name)
     expected = brute_force(system, size)
-    found = sufficient_sets.find_known_sets(system, size)
-    assert found.count == len(expected)
-    assert found.contains == {} or all(
-        found.contains[x] == sum(x in s for s in expected) for x in system.letters
+    matches = sufficient_sets.find_known_sets(system, size)
+    assert matches.count == len(expected)
+    assert matches.contains == {} or all(
+        matches.contains[x] == sum(x in s for s in expected) for x in system.letters
     )
-    for key, count in found.classes.items():
+    for key, count in matches.classes.items():
         members = [s for s in expected if class_of(system, s) == key]
         assert len(members) == count
-        if key == next(iter(found.classes)):
-            assert set(found.easiest_sets) == set(members)
+        if key == next(iter(matches.classes)):
+            assert set(matches.easiest_sets) == set(members)
 
 
 @pytest.mark.parametrize("name", ["scara", *rotating("puma560", "orthoglide-2003")])

@@ -18,7 +18,7 @@ from tests.terms.closed_form_values import evaluate
 def graph_torque(model: SymbolicModel, q, qd, qdd, chi) -> np.ndarray:
     """Torque of links and rotors by the Newton-Euler graph: another formula, another algebra."""
     graph = model.graph
-    kept = {
+    rest = {
         i: graph.symbol(f"chi[{i}]")
         for i, column in enumerate(model.columns)
         if isinstance(column, LinkColumn) or column.block is EnergyBlock.KINETIC
@@ -27,7 +27,7 @@ def graph_torque(model: SymbolicModel, q, qd, qdd, chi) -> np.ndarray:
     for i in range(len(q)):
         values |= {f"q[{i}]": q[i], f"qd[{i}]": qd[i], f"qdd[{i}]": qdd[i]}
     values |= {f"chi[{i}]": chi[name] for i, name in enumerate(model.names)}
-    return np.array(graph.evaluate_outputs(model.derive_torque(kept), values), dtype=float)
+    return np.array(graph.evaluate_outputs(model.derive_torque(rest), values), dtype=float)
 
 
 def random_state(joints: int, seed: int) -> tuple[list[float], list[float], list[float]]:
@@ -46,9 +46,9 @@ def test_torque_of_the_closed_form_is_that_of_newton_and_euler(name):
     chi = random_parameters(model)
     for seed in range(3):
         q, qd, qdd = random_state(model.geometry.joint_count, seed)
-        found = evaluate(closed_of(name), q, chi).torque(qd, qdd)
+        actual = evaluate(closed_of(name), q, chi).torque(qd, qdd)
         expected = graph_torque(model, q, qd, qdd, chi)
-        assert np.allclose(found, expected, rtol=1e-11, atol=1e-11 * np.abs(expected).max())
+        assert np.allclose(actual, expected, rtol=1e-11, atol=1e-11 * np.abs(expected).max())
 
 
 MIXED = ["odd", *rotating("general3", "wrist", "scara")]
@@ -87,8 +87,8 @@ def test_gravity_letter_is_taken_out_only_where_it_divides_everything():
 
 def test_rotor_that_two_joints_turn_enters_all_their_entries():
     """v = q2 - 2 q1: Iam2 v**2 / 2 gives 4, -2, 1 times Iam2."""
-    found = evaluate(closed_of("shared"), [0.2, 0.9], {"Iam2": 1.5}).inertia
-    assert found[0, 0] == 6.0 and found[0, 1] == found[1, 0] == -3.0 and found[1, 1] == 1.5
+    actual = evaluate(closed_of("shared"), [0.2, 0.9], {"Iam2": 1.5}).inertia
+    assert actual[0, 0] == 6.0 and actual[0, 1] == actual[1, 0] == -3.0 and actual[1, 1] == 1.5
 
 
 def test_long_joint_names_are_kept_apart():

@@ -58,14 +58,14 @@ def states(name):
     """((q, qd, qdd) of the motors, what the lines read) at closed states near home."""
     derivation, model = derived(name), compiled(name)
     closure = derivation.model.closure
-    solved, given = list(closure.solved), list(closure.actuated)
+    solved, inputs = list(closure.solved), list(closure.actuated)
     for q, qd, qdd in motions_of(derived(name)):
         u, ud = model.close(q[None]), model.coupling(q[None])[0] @ qd
         F = closure.compute_jacobians(u)[0]
         drift = closure.evaluate_expressions(closure.drift, u, ud[None])[0]
         udd = np.zeros(len(ud))
-        udd[given] = qdd
-        udd[solved] = -np.linalg.solve(F[:, solved], F[:, given] @ qdd + drift)
+        udd[inputs] = qdd
+        udd[solved] = -np.linalg.solve(F[:, solved], F[:, inputs] @ qdd + drift)
         yield (q, qd, qdd), known(derivation, u[0], ud, udd)
 
 
@@ -96,9 +96,9 @@ def test_without_the_inverse_as_scanned_they_do_not():
 
 def test_sizes_and_order_are_the_paper_s():
     words, _, sides = printed("orthoglide-2003")
-    told = "\n".join(words)
-    assert "(23) tau = DBrob KBrob, DBrob = [DP DB1 DB2 DB3]: 3 x 43" in told
-    assert "(29) DB3 = [Dm3 on row 13, else 0 | Jp^T J3^-T DL3]: 3 x 14" in told
+    text = "\n".join(words)
+    assert "(23) tau = DBrob KBrob, DBrob = [DP DB1 DB2 DB3]: 3 x 43" in text
+    assert "(29) DB3 = [Dm3 on row 13, else 0 | Jp^T J3^-T DL3]: 3 x 14" in text
     assert sides["Dm2"] == (["12"], ["Ia12R", "Fv12", "Fs12", "Off12"])  # eq. (25)
     assert sides["DL1"][1] == "ZZ21R MX21 MY21R XX31R XY31R XZ31R YZ31R ZZ31R MY31R MX41".split()
     alike = "\n".join(printed("orthoglide-2003-similar-legs")[0])
@@ -124,10 +124,10 @@ def test_guegan_relations_stand_beside_the_formulas():
     """Eq. 42: G says q4 = -q3, q5 = -q2 - pi/2, q7 = q3 of every leg."""
     form = derive_short_form(derived("orthoglide-2003").model, derived("orthoglide-2003").base)
     assert form.loops is not None
-    told = "\n".join(form.loops)
-    assert "q41 = -q31; q51 = -q21 - pi/2; q71 = q31" in told
-    assert "rows of J_t: Jp<p>_<a> of p, Jt<u>_<a> of the others; of motors: 1 and 0" in told
-    assert "tau = J_t' t, t: torques of the opened tree along u" in told
+    text = "\n".join(form.loops)
+    assert "q41 = -q31; q51 = -q21 - pi/2; q71 = q31" in text
+    assert "rows of J_t: Jp<p>_<a> of p, Jt<u>_<a> of the others; of motors: 1 and 0" in text
+    assert "tau = J_t' t, t: torques of the opened tree along u" in text
 
 
 # S. Briot, M. Gautier, 2012, part 2: f_p, the spheres on which the bars hold the platform.
@@ -143,10 +143,10 @@ def test_spheres_are_those_of_the_paper():
     lines = format_sheet(derive_short_form(derivation.model, derivation.base).sheet).splitlines()
     names, rng = [j.name for j in derivation.model.robot.free_joints], np.random.default_rng(2)
     u = rng.uniform(-1, 1, len(names))
-    found = run_lines(lines, known(derivation, u, u, beta=[0.0] * derivation.base.rank))
-    values = found | {"x": found["q6x"], "y": found["q6y"], "z": found["q6"]}
+    out = run_lines(lines, known(derivation, u, u, beta=[0.0] * derivation.base.rank))
+    values = out | {"x": out["q6x"], "y": out["q6y"], "z": out["q6"]}
     for k, text in enumerate(SPHERES, start=1):
-        assert found[f"fp{k}"] == pytest.approx(eval(text, {}, values), abs=1e-12)
+        assert out[f"fp{k}"] == pytest.approx(eval(text, {}, values), abs=1e-12)
 
 
 def test_six_motors_leave_the_inverse_of_k_to_a_solver():
@@ -159,12 +159,12 @@ def test_six_motors_leave_the_inverse_of_k_to_a_solver():
     assert closure is not None and closure.platform is not None
     posture = {f"q{name}": u for name, u in zip(names, closure.home, strict=True)}
     still = {f"qd{name}": 0.0 for name in names}
-    found = run_lines(
+    out = run_lines(
         format_sheet(form.sheet).splitlines(), {**model.geometry.values, **posture, **still}
     )
     L = np.array(
         [
-            [found.get(f"L{x}_{names[p]}", float(x == names[p])) for p in closure.platform]
+            [out.get(f"L{x}_{names[p]}", float(x == names[p])) for p in closure.platform]
             for x in names
         ]
     )

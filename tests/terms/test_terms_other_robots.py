@@ -58,12 +58,12 @@ def test_the_printed_map_and_its_printed_inverse_undo_each_other(name):
     forward = [line.split(" = ") for line in format_forward_map(table)]
     coefficients = {name: text_value(right, lengths | base) for name, right in forward}
     assert list(coefficients) == list(table.map.rows)
-    found = {
+    values = {
         name: text_value(right, lengths | coefficients)
         for name, right in (line.split(" = ") for line in format_backward_map(table))
     }
-    assert found.keys() == set(table.map.columns) and table.map.determinant
-    for name, value in found.items():
+    assert values.keys() == set(table.map.columns) and table.map.determinant
+    for name, value in values.items():
         assert value == pytest.approx(base[name], rel=1e-10), name
 
 
@@ -137,10 +137,10 @@ def test_expanded_form_of_a_tied_robot_gives_the_torque_of_the_c(name):
             chi[column.name] = float(rng.normal())
     for _ in range(3):
         q, qd, qdd = rng.uniform(-2, 2, (3, derivation.model.geometry.coordinate_count))
-        found = np.array(evaluate(closed, list(q), chi).torque(qd, qdd))
+        actual = np.array(evaluate(closed, list(q), chi).torque(qd, qdd))
         phi = model.regressor(q[None], qd[None], qdd[None])[0]
         expected = phi @ np.array([chi[name] for name in derivation.model.names])
-        assert np.max(np.abs(found - expected)) < 1e-12 * np.max(np.abs(expected))
+        assert np.max(np.abs(actual - expected)) < 1e-12 * np.max(np.abs(expected))
 
 
 def test_a_leg_has_34_coefficients_of_rank_12():

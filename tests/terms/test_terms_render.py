@@ -60,17 +60,17 @@ def expected(name: str) -> dict[str, float]:
 
 
 def test_a_closed_form_can_be_read_back_from_text_and_latex():
-    closed, told, names = closed_of("odd"), expected("odd"), numbers_of("odd")[0]
+    closed, message, names = closed_of("odd"), expected("odd"), numbers_of("odd")[0]
     printed = printed_functions(coefficients.format_closed_form(closed))
     for function, text in list(printed.items())[::8]:
-        assert text_value(text, names) == pytest.approx(told[function], rel=1e-9)
+        assert text_value(text, names) == pytest.approx(message[function], rel=1e-9)
     letters = {format_latex_symbol(key): value for key, value in names.items()}
     blocks = coefficients.format_closed_form(closed, "latex").split("\\begin{align*}\n")[1:]
-    assert len(blocks) >= len(closed.functions) == len(told)
-    for block, function in list(zip(blocks, told, strict=False))[::4]:
+    assert len(blocks) >= len(closed.functions) == len(message)
+    for block, function in list(zip(blocks, message, strict=False))[::4]:
         _, right = block.split("\n\\end{align*}")[0].split(" ={}& ")
-        found = written_value(right.replace(" \\\\\n& ", " "), letters)
-        assert found == pytest.approx(told[function], rel=1e-9, abs=1e-12)
+        result = written_value(right.replace(" \\\\\n& ", " "), letters)
+        assert result == pytest.approx(message[function], rel=1e-9, abs=1e-12)
 
 
 def test_tables_of_the_wrist():

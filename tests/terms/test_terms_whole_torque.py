@@ -89,8 +89,8 @@ def check(name) -> None:
     for motion in motions_of(derivation):
         beta = rng.normal(size=derivation.base.rank)
         expected = model.inverse_dynamics(*motion[:, None], beta, s[None] if len(s) else None)[0]
-        found, ud, udd, J = ran(derivation, model, text.splitlines(), motion, beta)
-        tau = J.T @ torque(found, names, ud, udd, "S_kij = -S_jik" in text)
+        actual, ud, udd, J = ran(derivation, model, text.splitlines(), motion, beta)
+        tau = J.T @ torque(actual, names, ud, udd, "S_kij = -S_jik" in text)
         assert np.max(np.abs(tau - expected)) < 1e-12 * np.max(np.abs(expected))
 
 
@@ -116,16 +116,16 @@ def test_printed_lines_of_further_robots(loop_robots_folder, file):
 def test_a_document_of_both_has_one_thing_under_each_name(name):
     """The torque and the columns on one sheet: names are given once, and before they are read."""
     derivation = derived(name)
-    found = derive_equation(derivation.model, derivation.base, motion=True, columns=True)
-    tree = ast.parse(format_sheet(found.sheet))
+    result = derive_equation(derivation.model, derivation.base, motion=True, columns=True)
+    tree = ast.parse(format_sheet(result.sheet))
     names = [node.targets[0].id for node in tree.body if isinstance(node, ast.Assign)]
     assert max(Counter(names).values()) == 1
     free = range(len(derivation.model.robot.free_joints))
     values = known(derivation, *([0.5 + 0.1 * k for k in free],) * 3, [1.0] * derivation.base.rank)
-    run_lines(format_sheet(found.sheet).splitlines(), values)  # NameError otherwise
+    run_lines(format_sheet(result.sheet).splitlines(), values)  # NameError otherwise
     read = {n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
     assert not set(names) & set(values)
-    assert {d.name for d in found.sheet.definitions if not d.result} <= read
+    assert {d.name for d in result.sheet.definitions if not d.result} <= read
 
 
 LINES = {"puma560": 300, "rx90": 280, "ur10e": 260, "sr400": 340, "orthoglide-leg": 40}
@@ -143,8 +143,8 @@ def test_known_subexpressions_have_their_names():
     """Axes 2, 3 and 4 of a UR10e are parallel, 2 and 3 of a PUMA; those of an SR400 follow q7."""
     text = {}
     for name in ("ur10e", "puma560", "sr400"):
-        found = derive_short_form(derived(name).model, derived(name).base)
-        text[name] = format_sheet(found.sheet)
+        result = derive_short_form(derived(name).model, derived(name).base)
+        text[name] = format_sheet(result.sheet)
     assert "s234 = sin(q2 + q3 + q4)" in text["ur10e"]
     assert "s23 = sin(q2 + q3)" in text["puma560"] and "gx_4 = g*s23*c4" in text["puma560"]
     assert "J44 = ZZ4c" in text["puma560"] and "S334 = S324" in text["puma560"]
@@ -192,7 +192,7 @@ def test_puma_is_the_published_one():
     rng = np.random.default_rng(3)
     pairs: dict[str, list[tuple[float, float]]] = {name: [] for name in PUBLISHED}
     for q in rng.uniform(-3, 3, (20, 6)):
-        found = run_lines(lines, known(derivation, q, beta=beta))
+        out = run_lines(lines, known(derivation, q, beta=beta))
         letters = {
             f"{f}{label}": getattr(np, "sin" if f == "S" else "cos")(angle)
             for f in "SC"
@@ -205,7 +205,7 @@ def test_puma_is_the_published_one():
             )
         }
         for name, text in PUBLISHED.items():
-            pairs[name].append((found[name], eval(text, {}, letters)))
+            pairs[name].append((out[name], eval(text, {}, letters)))
     for name, values in pairs.items():
         ours, theirs = np.array(values).T
         limit = 0.03 * np.max(np.abs(theirs)) + 0.02 * np.ptp(theirs)
@@ -214,8 +214,8 @@ def test_puma_is_the_published_one():
 
 def test_effects_are_never_left_out():
     derivation = derived("two-link")
-    kept = drop_zero_parameters(derivation.model, derivation.base).parameters
-    assert [p.name for p in kept] == ["ZZ1R", "MX1R", "Fv1", "Fs1", "ZZ2", "MX2", "Fv2", "Fs2"]
+    stored = drop_zero_parameters(derivation.model, derivation.base).parameters
+    assert [p.name for p in stored] == ["ZZ1R", "MX1R", "Fv1", "Fs1", "ZZ2", "MX2", "Fv2", "Fs2"]
 
 
 def test_nonzero_needs_nominal_values():
@@ -239,9 +239,9 @@ def test_printed_columns_are_those_of_the_c(name):
         derive_regressor_form(derivation.model, derivation.base).sheet
     ).splitlines()
     for motion in motions_of(derivation):
-        found, _, _, J = ran(derivation, model, lines, motion)
+        result, _, _, J = ran(derivation, model, lines, motion)
         expected = model.base_regressor(*motion[:, None])[0]
-        columns = J.T @ printed_columns(derivation, found)
+        columns = J.T @ printed_columns(derivation, result)
         assert np.max(np.abs(columns - expected)) < 1e-12 * np.max(np.abs(expected))
 
 

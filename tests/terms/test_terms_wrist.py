@@ -35,12 +35,12 @@ def reference(name: str) -> list[str]:
 
 
 def coefficient_lines() -> list[tuple[str, str, str, str]]:
-    found = []
+    values = []
     for line in reference("wrist_coefficients.txt"):
         left, right = line.split("=")
         name, function, monomial = left.split()
-        found.append((name, function, monomial, right.strip()))
-    return found
+        values.append((name, function, monomial, right.strip()))
+    return values
 
 
 def definition_lines() -> list[tuple[str, str, str]]:
@@ -61,39 +61,39 @@ def table():
 
 
 def test_names_functions_and_monomials_are_those_of_the_table(table):
-    found = {c.name: (c.function, sympified(c.monomial)) for c in table.coefficients}
+    values = {c.name: (c.function, sympified(c.monomial)) for c in table.coefficients}
     expected = {name: (f, sympified(m)) for name, f, m, _ in coefficient_lines()}
     assert len(expected) == 101
-    assert found == expected
+    assert values == expected
 
 
 def test_every_coefficient_is_the_stated_combination_of_the_seventeen(table):
     for name, _, _, text in coefficient_lines():
         combination = table.relations.combinations[name]
-        found = sum(
+        result = sum(
             sympy.Rational(v.numerator, v.denominator) * sympy.Symbol(k)
             for k, v in combination.items()
         )
-        assert sympy.expand(found - sympy.sympify(text)) == 0, name
+        assert sympy.expand(result - sympy.sympify(text)) == 0, name
 
 
 def test_definitions_in_the_papers_letters_and_in_base_parameters(table):
     static = table.closed.algebra.names[table.closed.algebra.moving :]
     for name, physical, base in definition_lines():
-        own = table.by_name[name]
-        found = ring.format_physical(own.physical, table.physical.names, table.physical.masses)
-        assert sympy.expand(sympy.sympify(found) - sympy.sympify(physical)) == 0, name
-        found = ring.format_linear_form(own.base, table.base_names, static)
-        assert sympy.expand(sympy.sympify(found) - sympy.sympify(base)) == 0, name
+        item = table.by_name[name]
+        text = ring.format_physical(item.physical, table.physical.names, table.physical.masses)
+        assert sympy.expand(sympy.sympify(text) - sympy.sympify(physical)) == 0, name
+        text = ring.format_linear_form(item.base, table.base_names, static)
+        assert sympy.expand(sympy.sympify(text) - sympy.sympify(base)) == 0, name
 
 
 def test_physical_parameters(table):
-    found = table.identifiability
-    assert len(found.letters) == 32
-    assert len(found.appearing) == 25
-    assert set(found.vanishing) == {"at1", "al1", "aJ12", "aJ13", "aJ22", "aJ23", "aJ33"}
-    assert [dict(group) for group in found.sums] == [{"ct1": 1, "bl1": 1}]
-    assert found.jacobian_rank == 17
+    result = table.identifiability
+    assert len(result.letters) == 32
+    assert len(result.appearing) == 25
+    assert set(result.vanishing) == {"at1", "al1", "aJ12", "aJ13", "aJ22", "aJ23", "aJ33"}
+    assert [dict(group) for group in result.sums] == [{"ct1": 1, "bl1": 1}]
+    assert result.jacobian_rank == 17
 
 
 def test_coefficients_fall_into_twenty_one_classes(table):
@@ -101,16 +101,16 @@ def test_coefficients_fall_into_twenty_one_classes(table):
 
 
 def test_map_to_the_base_parameters_and_back(table):
-    found = table.map
-    assert found.rows == table.relations.independent
-    assert len(found.columns) == 17
-    assert abs(int(found.determinant.LC)) == 16 and found.determinant.is_ground
+    result = table.map
+    assert result.rows == table.relations.independent
+    assert len(result.columns) == 17
+    assert abs(int(result.determinant.LC)) == 16 and result.determinant.is_ground
     expected = read_pairs("""
         ZZ1R PJ7-PJ16 MX1 -PG5 MY1R -PG6 XX2R PJ1+PJ3+PJ16 XY2 PJ6/2 XZ2 PJ10-PJ2/2 YZ2 PJ13
         ZZ2R PJ1+PJ19 MX2 -PG4 MY2R PG1 XX3R -PJ1 XY3 -PJ2/2 XZ3 PJ5/2-bl1*PG3 YZ3 bl1*PG2-PJ4/2
         ZZ3 PJ16 MX3 -PG3 MY3 PG2
     """)
-    inverse = ring.invert_base_map(found, table.closed.algebra.static_ring)
+    inverse = ring.invert_base_map(result, table.closed.algebra.static_ring)
     assert inverse is not None and inverse.keys() == expected.keys()
     plain = {s: sympy.Symbol(s.name) for s in sympy.symbols("g al1 bl1", real=True)}
     for name, row in inverse.items():
@@ -127,14 +127,14 @@ def test_page_of_the_wrist_is_current(regenerate):
     model = model_of("wrist")
     report = write_terms_report(model, derive_base_parameters(model))
     now = FIRST + report.split(FIRST)[1].split(LAST)[0].rstrip() + "\n"
-    head, kept = PAGE.read_text(encoding="utf-8").split(FIRST)
-    kept = FIRST + kept
+    head, stored = PAGE.read_text(encoding="utf-8").split(FIRST)
+    stored = FIRST + stored
     if regenerate:
         write_atomically(PAGE, head + now)
         return
     difference = "".join(
         difflib.unified_diff(
-            kept.splitlines(True), now.splitlines(True), "docs/robots/wrist.md", "now"
+            stored.splitlines(True), now.splitlines(True), "docs/robots/wrist.md", "now"
         )
     )
     assert not difference, f"\n{difference}\nIf this change is meant: pytest --regenerate"
@@ -145,11 +145,11 @@ def table_with(*edits: tuple[str, str]):
 
 
 def test_misprinted_functions(table):
-    found = {check.name: check for check in find_wrong_functions(table)}
-    assert found.keys() == {"S112", "S122", "S213", "S223", "S311"}
-    assert dict(found["S213"].difference) == {"c2*s3": "-PJ4", "c2*c3": "-PJ5"}
-    assert dict(found["S223"].difference) == {"c3*s3": "-2*PJ1", "c3**2": "-2*PJ2", "1": "PJ2"}
-    assert dict(found["S112"].difference) == {"c2*c3*s2*s3": "2*PJ2", "c2*s2*s3": "-PJ5/2"}
+    values = {check.name: check for check in find_wrong_functions(table)}
+    assert values.keys() == {"S112", "S122", "S213", "S223", "S311"}
+    assert dict(values["S213"].difference) == {"c2*s3": "-PJ4", "c2*c3": "-PJ5"}
+    assert dict(values["S223"].difference) == {"c3*s3": "-2*PJ1", "c3**2": "-2*PJ2", "1": "PJ2"}
+    assert dict(values["S112"].difference) == {"c2*c3*s2*s3": "2*PJ2", "c2*s2*s3": "-PJ5/2"}
 
 
 def test_each_misprint_breaks_the_power_balance_and_the_derived_model_does_not(table):
@@ -168,11 +168,11 @@ def test_misprinted_definition_and_its_contradiction(table):
 
 
 def test_solutions(table):
-    found = {check.letter: check for check in check_solutions(table)}
-    assert len(found) == 18
-    assert {k for k, c in found.items() if c.verdict != "right"} == {"cm", "aJ11"}
-    assert found["cm"].denominator == "0" and found["cm"].verdict == "divides by 0"
-    assert found["aJ11"].verdict == "returns -aJ11"
+    values = {check.letter: check for check in check_solutions(table)}
+    assert len(values) == 18
+    assert {k for k, c in values.items() if c.verdict != "right"} == {"cm", "aJ11"}
+    assert values["cm"].denominator == "0" and values["cm"].verdict == "divides by 0"
+    assert values["aJ11"].verdict == "returns -aJ11"
 
 
 def test_seventeen_not_eighteen(table):

@@ -52,7 +52,7 @@ def errors(own: Machine) -> Errors:
     """Without and with the true form, if there is one; all parameters fitted anew to training."""
     train, held = rows_of_machine(own)
     size = [np.sqrt((y**2).mean()) for y in held.y]
-    found = []
+    values = []
     for form in (None, own.truth):
         fitted, seen = (
             matrices(rows) if form is None else matrices(rows, form.joint, true_column(rows, form))
@@ -60,8 +60,8 @@ def errors(own: Machine) -> Errors:
         )
         beta = least_squares(train.y, fitted)
         left = zip(held.y, seen, strict=True)
-        found.append(np.array([np.sqrt(((y - W @ beta) ** 2).mean()) for y, W in left]))
-    return Errors(*(100 * error / size for error in found))
+        values.append(np.array([np.sqrt(((y - W @ beta) ** 2).mean()) for y, W in left]))
+    return Errors(*(100 * error / size for error in values))
 
 
 def matrices(rows: Rows, j: int = 0, more: np.ndarray | None = None) -> list[np.ndarray]:
@@ -74,12 +74,12 @@ def matrices(rows: Rows, j: int = 0, more: np.ndarray | None = None) -> list[np.
 
 def least_squares(y: tuple[np.ndarray, ...], W: list[np.ndarray]) -> np.ndarray:
     """(c,) joints weighed by their deviations."""
-    sigma = [float(own.std()) for own in y]
+    sigma = [float(item.std()) for item in y]
     beta = np.zeros(W[0].shape[1])
     for _ in range(PASSES):
-        matrix = np.vstack([own / s for own, s in zip(W, sigma, strict=True)])
-        right = np.concatenate([own / s for own, s in zip(y, sigma, strict=True)])
+        matrix = np.vstack([entry / s for entry, s in zip(W, sigma, strict=True)])
+        right = np.concatenate([local / s for local, s in zip(y, sigma, strict=True)])
         scale = np.linalg.norm(matrix, axis=0) + 1e-30
         beta = np.linalg.lstsq(matrix / scale, right, rcond=1e-10)[0] / scale
-        sigma = [float((own - w @ beta).std()) for own, w in zip(y, W, strict=True)]
+        sigma = [float((actual - w @ beta).std()) for actual, w in zip(y, W, strict=True)]
     return beta

@@ -40,14 +40,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def line(law: str, seed: int, encoder: str, folder: Path) -> str:
     """Errors on held-out motion by joint."""
-    own = machine(law, seed, encoder, folder)
-    found = errors(own)
+    plant = machine(law, seed, encoder, folder)
+    result = errors(plant)
     parts = [
-        f"{'*' if own.joint == str(j + 1) else ''}{j + 1}: {before:.2f} -> {after:.2f} %"
-        for j, (before, after) in enumerate(zip(found.without, found.with_form, strict=True))
+        f"{'*' if plant.joint == str(j + 1) else ''}{j + 1}: {before:.2f} -> {after:.2f} %"
+        for j, (before, after) in enumerate(zip(result.without, result.with_form, strict=True))
     ]
-    taken = "" if own.truth is None else f"  takes {100 * found.taken[own.truth.joint]:.0f} %"
-    return f"{own.name}{taken}  [{',  '.join(parts)}]"
+    taken = "" if plant.truth is None else f"  takes {100 * result.taken[plant.truth.joint]:.0f} %"
+    return f"{plant.name}{taken}  [{',  '.join(parts)}]"
 
 
 if __name__ == "__main__":

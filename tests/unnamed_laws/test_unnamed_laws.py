@@ -37,28 +37,28 @@ def test_the_simulated_torque_is_the_column(name):
     ("name", "encoder"), [("load_speed", "fine"), *rotating(("dither", "4096"))]
 )
 def test_the_true_form_explains_what_is_left(name, encoder, tmp_path):
-    own = machine(name, 1, encoder, tmp_path)
-    found, j = errors(own), own.truth.joint
-    assert found.taken[j] > 0.5
-    assert found.without[j] > 2 * np.delete(found.without, j).max()
-    assert np.allclose(np.delete(found.taken, j), 0, atol=0.1)
-    written = own.train[0].stat().st_mtime_ns
-    assert machine(name, 1, encoder, tmp_path) == own  # and it is not made again
-    assert own.train[0].stat().st_mtime_ns == written
+    plant = machine(name, 1, encoder, tmp_path)
+    result, j = errors(plant), plant.truth.joint
+    assert result.taken[j] > 0.5
+    assert result.without[j] > 2 * np.delete(result.without, j).max()
+    assert np.allclose(np.delete(result.taken, j), 0, atol=0.1)
+    written = plant.train[0].stat().st_mtime_ns
+    assert machine(name, 1, encoder, tmp_path) == plant  # and it is not made again
+    assert plant.train[0].stat().st_mtime_ns == written
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["two_dips", "neighbour_drag", "maxwell_hose"])
 def test_a_law_is_learned_and_an_equation_proposed(name, tmp_path):
-    own = machine(name, 5, "fine", tmp_path)
-    learned = what_is_learned(own)
+    plant = machine(name, 5, "fine", tmp_path)
+    learned = what_is_learned(plant)
     assert float(learned.rsplit(": ", 1)[1].split()[0]) > 0.8, learned
-    proposed = what_is_proposed(own)
+    proposed = what_is_proposed(plant)
     assert "found)" in proposed, proposed
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [2, 3])
 def test_nothing_is_learned_of_a_machine_that_lacks_nothing(seed, tmp_path):
-    told = what_is_learned(machine(CLEAN, seed, "4096", tmp_path)).splitlines()
-    assert all(line.endswith("nothing is learned") for line in told), told
+    lines = what_is_learned(machine(CLEAN, seed, "4096", tmp_path)).splitlines()
+    assert all(line.endswith("nothing is learned") for line in lines), lines
