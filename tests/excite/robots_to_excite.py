@@ -15,16 +15,16 @@ from modeler.runtime.model import CompiledModel
 
 @cache
 def robot(name: str) -> tuple[Robot, CompiledModel]:
-    found = read_robot(name)
-    if found.loops:
-        found = complete_home(found).robot
-    return found, compile_model(generate(derive(found)))
+    result = read_robot(name)
+    if result.loops:
+        result = complete_home(result).robot
+    return result, compile_model(generate(derive(result)))
 
 
 def limits_of(name, limits=(), boxes=()):
     """The robot compiled, and its limits as the command line takes them."""
-    found, compiled = robot(name)
-    return compiled, build_bounds(found, compiled, limits, boxes)
+    result, compiled = robot(name)
+    return compiled, build_bounds(result, compiled, limits, boxes)
 
 
 def plausible(compiled: CompiledModel, seed: int = 0) -> np.ndarray:

@@ -35,9 +35,9 @@ def plant(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for m, machine in enumerate(("r1", "r2")):
         (folder / machine).mkdir()
         for day in range(1, 6):
-            own = worn if machine == "r2" and day >= 3 else robot
+            actual = worn if machine == "r2" and day >= 3 else robot
             place = folder / machine / f"2026-03-{day:02d}.parquet"
-            simulate(own, place, **MOTION, seed=10 * m + day)
+            simulate(actual, place, **MOTION, seed=10 * m + day)
     return folder
 
 
@@ -66,7 +66,7 @@ def test_processes_and_lists_give_the_same(capsys, plant: Path, tmp_path: Path) 
 
 
 @with_cases(
-    "words, told",
+    "words, text",
     ("", "fleet: got no logs; name files or folders of logs, or --list FILE"),
     ("@/r1/2026-03-01.parquet --workers 0", "--workers: got 0; expected 1 or more"),
     ("@/r1/2026-03-01.parquet", "fleet: got one log each of r1; expected two periods of a mac"),
@@ -78,18 +78,18 @@ def test_processes_and_lists_give_the_same(capsys, plant: Path, tmp_path: Path) 
     ("@ --cutoff -1", "position_cutoff is -1.0; expected a number that is not negative"),
     ("@ --effects none", "--effects: got none; expected some of"),
 )
-def test_bad_input_is_one_line(capsys, two_days: Path, words: str, told: str) -> None:
+def test_bad_input_is_one_line(capsys, two_days: Path, words: str, text: str) -> None:
     (two_days / "empty").mkdir(exist_ok=True)
     where = str(two_days)
-    assert told.replace("@", where) in refusal(capsys, *words.replace("@", where).split())
+    assert text.replace("@", where) in refusal(capsys, *words.replace("@", where).split())
 
 
 def test_rows_given_twice_are_refused(capsys, two_days: Path, tmp_path: Path) -> None:
     first, copy = two_days / "r1" / "2026-03-01.parquet", tmp_path / "r3" / "b.parquet"
     copy.parent.mkdir()
     copy.write_bytes(first.read_bytes())
-    told = refusal(capsys, str(two_days / "r1"), str(copy))
-    assert f"{copy}: got rows of {first} again" in told
+    out = refusal(capsys, str(two_days / "r1"), str(copy))
+    assert f"{copy}: got rows of {first} again" in out
 
 
 @pytest.mark.rotating("long tests of fleet")
@@ -100,9 +100,9 @@ def test_the_command_and_python_say_the_same(capsys, plant: Path, tmp_path: Path
     pq.write_table(pa.table({"time": [0.0, 1.0], "q1": [0.0, 0.0]}), bad)  # no rows, no joint 2
     out = run(capsys, str(bad), str(plant), "--json", str(tmp_path / "fleet.json"))
     assert f"left out: {bad}: 2 rows; expected at least 10" in out and "leaps up by" in out
-    told = json.loads((tmp_path / "fleet.json").read_text())
-    assert told["verdict"] == "drift" and told["time"] == "days" and told["logs"] == 10
-    [one] = told["findings"]
+    data = json.loads((tmp_path / "fleet.json").read_text())
+    assert data["verdict"] == "drift" and data["time"] == "days" and data["logs"] == 10
+    [one] = data["findings"]
     assert (one["machine"], one["joint"], one["effect"], one["shape"], one["from"]) == (
         "r2",
         "2",
@@ -111,21 +111,21 @@ def test_the_command_and_python_say_the_same(capsys, plant: Path, tmp_path: Path
         "2026-03-03",
     )
     assert one["change_percent"] == pytest.approx(50.0, abs=8.0) and one["temperature"] is None
-    followed = {each["parameter"]: each for each in told["quantities"]}
+    followed = {each["parameter"]: each for each in data["quantities"]}
     assert set(followed) == {"Fv1", "Fs1", "Fv2", "Fs2", "gain 1", "gain 2", "load"}
-    own = followed["Fs2"]["machines"]["r2"]
-    assert own["times"] == [0.0, 1.0, 2.0, 3.0, 4.0] and len(own["values"]) == 5
+    actual = followed["Fs2"]["machines"]["r2"]
+    assert actual["times"] == [0.0, 1.0, 2.0, 3.0, 4.0] and len(actual["values"]) == 5
 
-    found = fleet(
+    result = fleet(
         load("two-link"),
         {
             machine: {path.stem: path for path in sorted((plant / machine).glob("*.parquet"))}
             for machine in ("r1", "r2")
         },
     )
-    assert found.findings[0].change == pytest.approx(one["change"])
-    assert len(found.table("findings").rows) == 1 and len(found.table("values").rows) == 70
-    assert found.plot("quantity 4") is not None and "Fs2" in found.summary()
-    page = write_report(found, tmp_path / "f.html", ["of a test"]).read_text()
+    assert result.findings[0].change == pytest.approx(one["change"])
+    assert len(result.table("findings").rows) == 1 and len(result.table("values").rows) == 70
+    assert result.plot("quantity 4") is not None and "Fs2" in result.summary()
+    page = write_report(result, tmp_path / "f.html", ["of a test"]).read_text()
     for words in ("of a test", "two-link: what drifts where", "leaps up", "All machines"):
         assert words in page

@@ -54,16 +54,16 @@ def folder(tmp_path: Path) -> Path:
 @pytest.mark.rotating("effects are added to simulated runs")
 def test_it_is_found_and_added_on_a_robot_that_does_not_define_it(case: Case, folder: Path) -> None:
     model, train, holdout = case.hidden(brake)
-    found = api.diagnose(model, [train], [holdout], DiagnoseOptions(effects_from=folder))
-    assert [(f.effect, f.joint) for f in found.effects] == [("eddy_brake", "2")]
-    left = [line for line in found.sentences if line.startswith("left out: ")]
+    result = api.diagnose(model, [train], [holdout], DiagnoseOptions(effects_from=folder))
+    assert [(f.effect, f.joint) for f in result.effects] == [("eddy_brake", "2")]
+    left = [line for line in result.sentences if line.startswith("left out: ")]
     assert left == [
         f"left out: leaning ({folder / 'far.toml'}: it reads q7, no joint of demo-arm)",
         "left out: learned_2 (a learned law, no physics)",
     ]
     better = api.add(model, "eddy_brake", [train], [holdout], AddOptions("2", folder))
-    own = parse_robot_text(better.robot_text, "better").own_effects
-    assert [effect.id for effect in own] == ["eddy_brake"]
+    local = parse_robot_text(better.robot_text, "better").own_effects
+    assert [effect.id for effect in local] == ["eddy_brake"]
     values = {p.name: p.value for p in better.fit.parameters}
     assert values["Keb2"] == pytest.approx(4.0, rel=0.04)
     with pytest.raises(DataError, match=r"leaning of .*far\.toml: it reads q7, no joint of"):
@@ -180,8 +180,8 @@ columns = {Kx = "v*sqrt(4.5 - p)"}
 shapes = {p = [2, 4]}
 """
     text = ROBOT + steep + '[effects]\nsteep = [{joint = "1", p = 3}]\n'
-    found = export_effect(parse_robot_text(text, "x.toml"), "steep")
-    (effect,) = parse_robot_text(ROBOT + found, "y.toml").own_effects
+    files = export_effect(parse_robot_text(text, "x.toml"), "steep")
+    (effect,) = parse_robot_text(ROBOT + files, "y.toml").own_effects
     assert effect.forms[0].nonlinear_parameters[0].grid == (2.0, 4.0)
 
 
@@ -212,18 +212,18 @@ def test_export_as_a_command(tmp_path: Path, run: Run) -> None:
 
 
 def test_what_cannot_be_exported(tmp_path: Path, run: Run) -> None:
-    own = tmp_path / "eddy_brake.toml"
-    own.write_text(ROBOT + BRAKE, encoding="utf-8")
+    item = tmp_path / "eddy_brake.toml"
+    item.write_text(ROBOT + BRAKE, encoding="utf-8")
     for words, said in (
         (("eddy_brake",), "--export: is of --robot; add that"),
-        (("eddy_brak", "--robot", own), 'eddy_brak: no such effect (did you mean "eddy_brake"?)'),
-        (("spring", "--robot", own), "spring: every robot may have it; expected one that spinner"),
+        (("eddy_brak", "--robot", item), 'eddy_brak: no such effect (did you mean "eddy_brake"?)'),
+        (("spring", "--robot", item), "spring: every robot may have it; expected one that spinner"),
         (
-            ("eddy_brake", "--robot", own, "--out", tmp_path, "--force"),
+            ("eddy_brake", "--robot", item, "--out", tmp_path, "--force"),
             "this is the robot file that is read; expected a name of its own",
         ),
         (("eddy_brake", "--robot", "emps"), "expected one that emps defines: none"),
     ):
         status, out, err = run("effects", "--export", *words)
         assert (status, out) == (1, "") and said in err and err.count("\n") == 1
-    assert list(tmp_path.iterdir()) == [own]
+    assert list(tmp_path.iterdir()) == [item]

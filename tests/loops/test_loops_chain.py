@@ -97,7 +97,7 @@ def test_friction_that_is_drawn_for_a_passive_joint_is_felt(robot: str) -> None:
 def test_a_law_of_the_load_is_refused(tmp_path: Path) -> None:
     """In robots with loops a law reads the motion of its own joint: said before a fit."""
     model = api.identify(api.load("five-bar"), [logged("five-bar", tmp_path, "a.csv", 1)])
-    told = "of load: five-bar has loops, and there a law reads the q, v and a of its joint"
-    with pytest.raises(DataError, match=told):
+    text = "of load: five-bar has loops, and there a law reads the q, v and a of its joint"
+    with pytest.raises(DataError, match=text):
         options = AddOptions("11", of=("load",))
         api.add(model, "learned", [tmp_path / "a.csv"], options=options)

@@ -56,15 +56,15 @@ def what_is_proposed(own: Machine) -> str:
     """The equations proposed on the joint of the law, by how much their torque is another."""
     assert own.truth is not None
     model = api.open_model(own.model)
-    found = api.diagnose(model, list(own.train), list(own.holdout), DiagnoseOptions(discover=True))
-    here = next((d for d in found.discoveries or () if d.joint == own.joint), None)
+    result = api.diagnose(model, list(own.train), list(own.holdout), DiagnoseOptions(discover=True))
+    here = next((d for d in result.discoveries or () if d.joint == own.joint), None)
     predicted = Predictions(own, own.truth.joint)
-    names, told = [joint.name for joint in model.spec.joints], []
+    names, text = [joint.name for joint in model.spec.joints], []
     for proposal in () if here is None else here.proposals:
         column = column_of(proposal.definition, proposal.finding.parameters, names, own.truth.joint)
         differs = predicted.differs(column)
-        told.append(f"{proposal.equation} ({differs:.2f} %{', found' * (differs < ENOUGH)})")
-    return f"{own.name}: {'; '.join(told) or 'nothing'}"
+        text.append(f"{proposal.equation} ({differs:.2f} %{', found' * (differs < ENOUGH)})")
+    return f"{own.name}: {'; '.join(text) or 'nothing'}"
 
 
 def column_of(definition, shapes, names, j):
@@ -72,8 +72,8 @@ def column_of(definition, shapes, names, j):
     effect = read_definition(
         "found", TomlCell("found").with_value(dict(definition)), {}, joints=names
     )
-    own = {s.name: shapes.get(s.name, s.grid[0]) for s in effect.forms[0].nonlinear_parameters}
-    candidate = Candidate(effect, effect.forms[0], names[j], j, own)
+    local = {s.name: shapes.get(s.name, s.grid[0]) for s in effect.forms[0].nonlinear_parameters}
+    candidate = Candidate(effect, effect.forms[0], names[j], j, local)
     return lambda rows: rows.filter_samples(
         j, [evaluate_equations([candidate], s) for s in rows.signals]
     )
