@@ -3,12 +3,11 @@
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from modeler.cli.console import (
-    Json,
     print_error,
     print_lines,
     print_note,
@@ -133,8 +132,8 @@ def run_show(args: argparse.Namespace) -> ShownRobot:
     places = {"page": args.out, "picture": args.picture}
     written = {what: str(place) for what, place in places.items() if place is not None}
     print_lines(f"{what}: {place}" for what, place in written.items())
-    shown: Json = serialise_posture(drawing.skeleton, drawing.posture)
-    return {**shown, **written}
+    shown = serialise_posture(drawing.skeleton, drawing.posture)
+    return cast(ShownRobot, shown | written)
 
 
 MODE_PICTURES = (*PICTURE_KINDS, ".html")
