@@ -378,8 +378,8 @@ def _written(effect: Effect, shapes: Mapping[str, float]) -> str:
         text = insert_effect('name = "arm"\n', effect.id, joint, shapes)
         shaft = '\n[coupling]\n2 = "q1 + q2"  # the motor of joint 2 also turns with joint 1\n'
         return block(text[text.index("[effects]") :] + shaft * effect.is_coupled, "toml")
-    if effect.hindrance:
-        return f"No column carries it: {cell(effect.hindrance)}."
+    if effect.obstacle:
+        return f"No column carries it: {cell(effect.obstacle)}."
     return (
         f"No robot file names it. `modeler add arm.model.json {effect.id} run.parquet --out "
         "better.model.json` puts it into the model."
