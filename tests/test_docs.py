@@ -317,7 +317,7 @@ def text_of(page: str) -> str:
 
 def test_every_key_of_a_robot_file_is_described():
     text = text_of("docs/reference/robot-file.md")
-    for key in _KEYS:
+    for key in _KEYS.split():
         assert f"`{key}`" in text or f"`[{key}]`" in text, key
     for word in (*COLUMNS, "physical.<joint>"):
         assert re.search(rf"`\[?{re.escape(word)}\]?`", text), word

@@ -24,7 +24,7 @@ def offered() -> dict[str, dict[str, list[str]]]:
         name: sorted(option for action in parser._actions for option in action.option_strings)
         for name, parser in commands().items()
     }
-    words = {"effects": EFFECTS, "estimators": ABOUT, "keys of a robot file": _KEYS}
+    words = {"effects": EFFECTS, "estimators": ABOUT, "keys of a robot file": _KEYS.split()}
     return {
         "python": python,
         "commands": typed,

@@ -58,7 +58,7 @@ def test_effects_are_shown(capsys):
 @pytest.mark.parametrize("asked", [("--nonzero",), ("--expanded",), ("--nonzero", "--terms")])
 def test_options_that_would_do_nothing_are_refused(capsys, asked):
     err = refusal(capsys, "derive", "two-link", *asked)
-    assert err.startswith(f"modeler: {asked[0]}: is of --closed-form or --")
+    assert err.startswith(f"modeler: {asked[0]}: needs --closed-form or --")
 
 
 @pytest.mark.rotating("long tests of cli")

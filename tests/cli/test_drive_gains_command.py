@@ -93,8 +93,8 @@ def test_a_log_with_a_known_load_is_predicted_with_it(arm, tmp_path, capsys):
 
 @with_cases(
     "words, message",
-    ("--payload-link 3", "--payload-link: is of --payload-mass; add that"),
-    ("--payload-centre 0,0,0", "--payload-centre: is of --payload-mass; add that"),
+    ("--payload-link 3", "--payload-link: needs --payload-mass; give both"),
+    ("--payload-centre 0,0,0", "--payload-centre: needs --payload-mass; give both"),
     ("--payload-mass 1 --payload-centre 1,a", "expected x, y and z in m"),
     ("--payload-mass 1 --payload-link 99", "payload: no link 99"),
     ("--payload-mass -1", "expected a mass above 0"),

@@ -134,7 +134,7 @@ def test_methods_are_one_or_several() -> None:
 
 @with_cases(
     "line, message",
-    ("compare m.json a.csv --window 2", "--window: is of --free-run; add that"),
+    ("compare m.json a.csv --window 2", "--window: needs --free-run; give both"),
     ("compare m.json n.json a.csv --free-run", "--free-run: got n.json too; expected one"),
 )
 def test_free_run_has_its_own_options(capsys, line: str, message: str) -> None:

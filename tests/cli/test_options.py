@@ -45,7 +45,7 @@ def test_what_is_empty_or_false_is_not_given() -> None:
     rules = [("a", ["b or c"], ["d"])]
     for values in ({"a": None}, {"a": False}, {"a": []}, {"a": 0, "c": 0}):
         check_together(values, rules)
-    with pytest.raises(OptionError, match=r"^a: is of b or c; add that"):
+    with pytest.raises(OptionError, match=r"^a: needs b or c; give both"):
         check_together({"a": 0, "d": 1}, rules)
     with pytest.raises(OptionError, match=r"^d: got it with a; leave one of them out"):
         check_together({"a": 0, "b": True, "d": 1}, rules)

@@ -183,7 +183,7 @@ def test_sets_rated_at_the_values_of_the_robot_file(capsys):
     ("wrist --cad", "--cad: wrist is a robot, with no identified values"),
     ("two-link --known m1=1,m2", "--known: got values, but two-link is a robo"),
     ("wrist --known cm --near cm=4", "--near: got values, but wrist is"),
-    ("wrist --near cm=4", "--near: is of --known; add that"),
+    ("wrist --near cm=4", "--near: needs --known; give both"),
     ("two-link --sets -1", "--sets: got -1; expected 1 or more, or --sets al"),
     ("two-link --sets 0", "--sets: got 0; expected 1 or more, or --sets alon"),
     ("five-bar --from coefficients", "five-bar: coefficients are written for ser"),

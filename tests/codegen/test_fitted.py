@@ -130,7 +130,7 @@ def test_values_of_zero_cost_nothing():
             twin = twins[function.name.replace("_fitted", "")]
             assert function.additions <= most * twin.additions
             assert function.multiplications <= most * twin.multiplications
-    assert "set aside: the logs do not tell it" in emitted.files["demo_arm_fitted.c"]
+    assert "set aside: the logs do not identify it" in emitted.files["demo_arm_fitted.c"]
 
 
 @with_cases(

@@ -161,7 +161,7 @@ def test_a_library_that_another_process_has_loaded_stays(tmp_path, monkeypatch) 
 def test_the_letter_of_a_drive_is_no_window_of_a_log_and_no_unit_of_a_map(place, file, span):
     assert parse_time_range(place) == (file, span)
     assert parse_time_range(r"C:\logs\run.csv") == (r"C:\logs\run.csv", None)
-    with pytest.raises(DataError, match=re.escape(r"--map C:\maps\arm.toml: cannot be read")):
+    with pytest.raises(DataError, match=re.escape(r"mapping C:\maps\arm.toml: cannot be read")):
         parse_map_options([r"C:\maps\arm.toml"])
 
 

@@ -129,7 +129,7 @@ OF_A_ROBOT = {
     "--rate 0": "--rate: got 0",
     "--time-limit 0": "time limit",
     "--picture p.bmp": ".png, .svg or .pdf",
-    "--choose 1": "--choose: is of --from; add that",
+    "--choose 1": "--choose: needs --from; give both",
     "--choose 1 --from a.csv": "--out: got it with --choose; leave one",
     "--between stribeck@2,spring@2": "has no values",
     "--between stribeck@2,spring@2 --from a.csv": "--from: got it with --between",

@@ -168,7 +168,7 @@ def test_the_rate_of_a_pendulum(stands: bool) -> None:
     pull = MOMENT * G / INERTIA * (1.0 if stands else -1.0)
     roots = np.roots([1.0, RUBS / INERTIA, -pull])
     assert result.rate == pytest.approx(roots.real.max(), rel=0.01)
-    assert result.unstable == stands
+    assert result.is_unstable == stands
     if stands:
         assert result.doubling_time == pytest.approx(np.log(2.0) / roots.real.max(), rel=0.01)
         assert result.describe().startswith("unstable by nature: along this motion any error doubl")

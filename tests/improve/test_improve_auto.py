@@ -49,7 +49,7 @@ def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(case, sprun
     same, (line,) = add_findings(sprung.model, case.compiled, [first], sprung.logs)
     assert same is sprung.model and line.endswith("(weak evidence: it may be another)")
     monkeypatch.setattr(
-        module, "explain_weak_evidence", lambda *result: "the error falls by little"
+        module, "_explain_weak_evidence", lambda *result: "the error falls by little"
     )
     step = add_effect(sprung.model, case.compiled, "spring", "3", sprung.logs)
     assert (

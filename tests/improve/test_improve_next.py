@@ -25,7 +25,7 @@ def test_what_is_suggested_can_be_added(case: Case, effect: Effect) -> None:
     (first,) = result.effects
     whole = (
         effect.acts in (EffectTarget.TORQUE, EffectTarget.GRAVITY, EffectTarget.WINDOW)
-        or effect.last_link
+        or effect.is_on_last_link
     )
     candidate = Candidate(effect, effect.forms[0], None if whole else "3", 2)
     pick = dataclasses.replace(first.pick, candidate=candidate)

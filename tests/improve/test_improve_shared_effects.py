@@ -215,7 +215,7 @@ def test_what_cannot_be_exported(tmp_path: Path, run: Run) -> None:
     item = tmp_path / "eddy_brake.toml"
     item.write_text(ROBOT + BRAKE, encoding="utf-8")
     for words, said in (
-        (("eddy_brake",), "--export: is of --robot; add that"),
+        (("eddy_brake",), "--export: needs --robot; give both"),
         (("eddy_brak", "--robot", item), 'eddy_brak: no such effect (did you mean "eddy_brake"?)'),
         (("spring", "--robot", item), "spring: every robot may have it; expected one that spinner"),
         (

@@ -136,7 +136,7 @@ def test_the_guess_is_written_into_the_robot_file(slide, tmp_path, run, monkeypa
 
 
 WRITES = [
-    (["log", "{a}", "--write"], "--write: is of --robot; add that"),
+    (["log", "{a}", "--write"], "--write: needs --robot; give both"),
     (["log", "{a}", "--robot", "emps", "--write"], "--write: emps is built in; save it"),
     (["log", "{a}", "--robot", "arm.par", "--write"], "another program's file"),
 ]

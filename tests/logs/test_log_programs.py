@@ -181,7 +181,7 @@ def test_a_damaged_dataset_is_one_line(short, tmp_path):
 def test_sheets_are_chosen_by_name(short, tmp_path):
     path = sheet(tmp_path, short.table)
     result = read_columns(path, ColumnRequest())
-    assert [(s.name, s.clock) for s in result.streams] == [("Sheet", False), ("data", True)]
+    assert [(s.name, s.is_clock) for s in result.streams] == [("Sheet", False), ("data", True)]
     assert read_columns(path, ColumnRequest("data")).rows == result.rows
     with pytest.raises(DataError, match=r"topic x: no sheet of that name; the sheets are Sheet, d"):
         read_columns(path, ColumnRequest("x"))

@@ -28,7 +28,8 @@ def rows(title: str) -> list[list[str]]:
 def test_every_function_stands_there() -> None:
     lines = set(re.findall(r"`(\w+)\(", part("Functions")))
     offered = {name: getattr(api, name) for name in api.__all__ if name not in ("Mapped", "AnyLog")}
-    assert lines == {n for n, x in offered.items() if callable(x) and not isinstance(x, type)}
+    functions = {n for n, x in offered.items() if callable(x) and not isinstance(x, type)}
+    assert functions <= lines <= {*offered}
 
 
 @pytest.mark.rotating("results of the session")
