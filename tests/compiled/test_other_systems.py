@@ -69,7 +69,7 @@ def test_a_library_of_it_has_all_that_is_called(cl, robot) -> None:
     model = load_module(made.spec, made.files)
     q, qd, qdd = states(len(made.spec.joints), 2000)
     if (loops := made.spec.closure) is not None:
-        q = 0.05 * q + np.array([loops.home[i] for i in loops.given])
+        q = 0.05 * q + np.array([loops.home[i] for i in loops.actuated])
     W = model.observation(q, qd, qdd)
     assert np.isfinite(W).all() and np.linalg.norm(W) > 1
     beta = np.random.default_rng(3).normal(size=W.shape[1])

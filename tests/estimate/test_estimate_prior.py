@@ -244,7 +244,7 @@ def test_a_load_is_found_beside_the_prior_of_the_robot(model):
         ]
         carried = [Payload(("loaded.csv",))]
         fit = identify_with_payloads(model, observe(model, logs), carried)
-        assert not fit.contradicted and max(p.prior for p in fit.parameters) > 0.5
+        assert not fit.prior_conflicts and max(p.prior for p in fit.parameters) > 0.5
         assert all(p.prior < 0.5 for p in fit.loads) and len(fit.loads) == 10
         truth = np.append(base_values(model, chi), [body[p.name[:-6]] for p in fit.loads])
         free = [p.status != "held" for p in (*fit.parameters, *fit.loads)]
