@@ -101,9 +101,9 @@ def test_the_command_and_python_say_the_same(capsys, plant: Path, tmp_path: Path
     out = run(capsys, str(bad), str(plant), "--json", str(tmp_path / "fleet.json"))
     assert f"left out: {bad}: 2 rows; expected at least 10" in out and "leaps up by" in out
     data = json.loads((tmp_path / "fleet.json").read_text())
-    assert data["verdict"] == "drift" and data["time"] == "days" and data["logs"] == 10
+    assert data["verdict"] == "drift" and data["time_unit"] == "days" and data["logs"] == 10
     [one] = data["findings"]
-    assert (one["machine"], one["joint"], one["effect"], one["shape"], one["from"]) == (
+    assert (one["machine"], one["joint"], one["effect"], one["shape"], one["begin"]) == (
         "r2",
         "2",
         "coulomb",
