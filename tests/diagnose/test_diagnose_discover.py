@@ -151,7 +151,7 @@ def test_what_is_proposed_can_be_pasted_and_added(case: Case, found: Diagnosis) 
 
 def test_what_is_found_is_told_to_machines_and_on_the_page(found: Diagnosis) -> None:
     told = found.to_json()
-    check_schema("diagnose", {"schema": "urn:modeler:schema:diagnose:1", **told})
+    check_schema("diagnose", {"schema": "urn:modeler:schema:diagnose:1", "not_added": [], **told})
     json.dumps(told, allow_nan=False)
     offered = {own["joint"]: own["proposals"] for own in told["discoveries"]}["2"]
     assert 1 <= len(offered) <= 3
