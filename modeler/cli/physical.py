@@ -69,7 +69,7 @@ def _print_overview(system: formulas.PhysicalSystem, source: str, fitted: bool) 
     parameters = "parameter" if number == 1 else "parameters"
     print_result(f"at least {number} {parameters} must be known that all others follow")
     if number:
-        print_result(f"measured with the least trouble: {','.join(easiest)}")
+        print_result(f"easiest to measure: {','.join(easiest)}")
         known_text = ",".join(f"{x}=VALUE" if fitted else x for x in easiest)
         print_result(
             f"{'values' if fitted else 'formulas'}: modeler physical {source} --known {known_text}"

@@ -266,7 +266,8 @@ def describe_last_addition(model: IdentifiedModel) -> list[str]:
         return []
     last = model.history[-1]
     lines = [
-        f"{p.name} = {p.value:.5g}{format_spread(p.value, p.sigma or 0.0, p.interval)} {p.unit}"
+        f"{p.name} = {p.value:.5g}{format_spread(p.value, p.sigma or 0.0, p.interval)}"
+        + f" {p.unit}" * (p.unit != "1")
         for p in _find_parameters(model, last)
     ]
     if lines and last.nonlinear_parameters:
@@ -283,7 +284,7 @@ def describe_last_addition(model: IdentifiedModel) -> list[str]:
         shifts = [f"{name} {last.shifts_in_sigmas[name]:.2g}" for name in order[:count]]
         if len(order) > count:
             shifts.append(f"all others less than {last.shifts_in_sigmas[order[count - 1]]:.2g}")
-        lines.append(f"moved by it, in their sigmas: {', '.join(shifts)}")
+        lines.append(f"shifts of other parameters, in standard deviations: {', '.join(shifts)}")
     return lines
 
 

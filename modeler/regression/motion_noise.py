@@ -40,9 +40,9 @@ class ChannelNoise(ShortRepr):
         is_moving: False at rest.
         density: one-sided power density of its noise, unit^2/Hz; of speeds (unit/s)^2/Hz.
         deviation: standard deviation of white noise of that density.
-        noise_crossover_hz: where the noise hides the motion; None if there is too little to show.
+        noise_crossover_hz: above it the noise exceeds the motion; None if too little shows it.
         step: resolution of what was measured; 0: none.
-        spectral_slope: noise grows as f^-colour towards low frequencies; 0 for white.
+        spectral_slope: noise grows as f^-slope towards low frequencies; 0 for white.
         band_hz: of its motion.
         frequency, spectrum: (m,) Hz, and density of what was measured, means over third octaves.
         noise_torque: of the noise at 1 Hz, (N m)^2/Hz; it grows as f^4 (positions) or f^2
@@ -186,7 +186,7 @@ class MotionNoise(ShortRepr):
         return float(np.linalg.norm(np.asarray(coefficients) * steps))
 
     def format_channels(self) -> list[str]:
-        """Returns a line of each channel: its noise, where it hides the motion, its resolution."""
+        """Returns a line of each channel: its noise, where it exceeds the motion, its resolution."""
         lines = []
         for joint in self.joints:
             if joint.is_moving and not joint.is_exact:
@@ -214,8 +214,8 @@ class MotionNoise(ShortRepr):
         if not self.moving:
             return []
         every = "; ".join(joint.format_words() for joint in self.moving if not joint.is_exact)
-        title = f"noise of the {self.quantity}, and from what frequency on it hides the motion"
-        return [f"{title}: {every}"] * bool(every) + self._describe_exact()
+        title = f"noise of the {self.quantity} (rms), and the frequency above which it exceeds"
+        return [f"{title} the motion: {every}"] * bool(every) + self._describe_exact()
 
     def explain_cutoff(self, chosen: float) -> str:
         """Returns why a position filter of this cut-off (Hz) was chosen."""

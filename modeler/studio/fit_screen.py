@@ -245,6 +245,6 @@ def _draw_choices(fit: Mapping[str, Any]) -> None:
         rows.append(("condition number", format_number(condition), scaled))
         for noise in bands["noise"]:
             level = f"{format_number(noise['deviation'])} {noise['unit']}"
-            why = f"hides the motion above {format_number(noise['noise_crossover_hz'])} Hz"
+            why = f"exceeds the motion above {format_number(noise['noise_crossover_hz'])} Hz"
             rows.append((f"noise of position {noise['joint']}", level, why))
         elements.draw_table(("", "", ""), rows)

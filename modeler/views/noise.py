@@ -54,7 +54,7 @@ def _build_motion_panel(one: ChannelNoise, bands: Bands) -> fig.Panel:
         series.append(fig.Curve("floor: its noise", along, np.full(2, one.density), _FLOOR))
         series.append(
             _build_vertical_curve(
-                "the noise hides the motion", one.noise_crossover_hz, ends, _MEETS
+                "the noise exceeds the motion", one.noise_crossover_hz, ends, _MEETS
             )
         )
     band = np.array([[min(f[0], one.band_hz) / 2.0, one.band_hz]])
@@ -111,7 +111,7 @@ def _build_vertical_curve(
 def _write_caption(bands: Bands, of: str, fitted: bool) -> str:
     text = (
         f"Power density of the {of} (blue, means over third octaves) and the floor that it meets, "
-        "the noise of the sensor (orange); from the dashed line on, it hides the motion. The band "
+        "the noise of the sensor (orange); above the dashed line it exceeds the motion. The band "
         "of the motion, with 99 % of the velocity's energy, is pale blue."
     )
     if bands.position_cutoff:
