@@ -186,7 +186,7 @@ class MotionNoise(ShortRepr):
         return float(np.linalg.norm(np.asarray(coefficients) * steps))
 
     def format_channels(self) -> list[str]:
-        """Returns a line of each channel: its noise, where it exceeds the motion, its resolution."""
+        """Returns a line of each channel: noise, where it exceeds the motion, resolution."""
         lines = []
         for joint in self.joints:
             if joint.is_moving and not joint.is_exact:
