@@ -612,7 +612,7 @@ def _fit_if_long(
             here = [each.name for each in sources if not can_read_from_middle(each)]
             if workers is not None and here:
                 reporter.print_note(
-                    f"dask: {', '.join(here)}: read and reduced by this process; workers can "
+                    f"{', '.join(here)}: read and reduced by this process; workers of dask can "
                     "begin in the middle of Parquet files only"
                 )
             method: Any = options.method

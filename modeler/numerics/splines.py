@@ -7,7 +7,6 @@ from itertools import combinations_with_replacement
 
 import numpy as np
 from scipy.linalg.lapack import sposv
-from scipy.optimize import nnls
 from scipy.sparse import csr_array, diags_array
 
 from modeler.core.expression import BESIDE, Law
@@ -110,6 +109,8 @@ def _cross_predict(X: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.n
 
 def _combine_predictions(columns: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.ndarray:
     """(n,) sum of predictions (folds, n, c), the weights of a fold by what others say of others."""
+    from scipy.optimize import nnls  # it takes long to load, and a fit has no use for it
+
     predicted = np.zeros(y.size)
     for f, fold_rows in enumerate(rows):
         fold_predictions = columns[f]

@@ -299,9 +299,10 @@ def remove_heat_maps(picture: Picture) -> Picture | None:
         if not any(isinstance(s, Heat) for s in panel.series)
         and any(len(s.values if isinstance(s, Bars | Heat) else s.x) for s in panel.series)
     )
+    if not panels:
+        return None
     height = round(picture.height * picture.heights[0] / sum(picture.heights))
-    beside = Picture(picture.name, picture.title, picture.caption, (panels,), height)
-    return beside if panels else None
+    return Picture(picture.name, picture.title, picture.caption, (panels,), height)
 
 
 def find_heat_maps(picture: Picture) -> list[tuple[Panel, Heat]]:

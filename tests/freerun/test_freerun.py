@@ -360,7 +360,7 @@ def test_an_error_that_grows_by_nature_is_not_blamed_on_the_model() -> None:
     """True values, an upright pendulum: the run is lost, and the reason is reported."""
     model, log = pendulum(True)
     run = simulate_free_run(model, [log], compile(model), FreeRunSettings(window=2.0))
-    assert run.joints[0].whole < 90.0 and run.stability.is_unstable
+    assert run.joints[0].whole_run_fit < 90.0 and run.stability.is_unstable
     assert any(
         "an error grows tenfold and more by nature; `--window 0.3`" in d for d in run.warnings
     )

@@ -90,5 +90,5 @@ def test_auto_puts_laws_in_last() -> None:
 
     fitted, train, holdout = demonstration(robot="two-link").hidden(both)
     better = api.add_all(fitted, [train], [holdout], AddOptions(learned=True))
-    kinds = [step.learned for step in better.history[1:]]
+    kinds = [step.is_learned for step in better.history[1:]]
     assert kinds == sorted(kinds) and any(kinds)

@@ -86,7 +86,7 @@ def test_a_law_that_was_learned_is_added_by_its_name(case: Case, folder: Path) -
     better = api.add(model, "learned_2", [train], [holdout], AddOptions("2", folder))
     value = {p.name: p for p in better.fit.parameters}["Lw2"]
     assert value.sigma is not None and abs(value.value - 5.0) < 4.0 * value.sigma
-    assert better.history[1].learned
+    assert better.history[1].is_learned
     assert better.history[1].error < 0.5 * better.history[0].error
 
 

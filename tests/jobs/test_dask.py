@@ -190,7 +190,7 @@ def test_commands_on_a_cluster(address: str, place: Path, tmp_path: Path, capsys
     pyarrow.csv.write_csv(pq.read_table(inputs[0]), text)
     assert main(["fit", "two-link", str(text), *fit[3:]]) == 0
     assert (
-        "--dask: same.csv: read and reduced by this process; workers can begin in the middle"
+        "same.csv: read and reduced by this process; workers of dask can begin in the middle"
         in (capsys.readouterr().err)
     )
     assert main([*fit, "--method", "iv"]) == 1

@@ -147,7 +147,7 @@ def test_a_spike_flattens_nothing_and_is_told(case: Case) -> None:
 
     quiet, loud = (diagnosis_of(case, torque) for torque in (stribeck, torn))
     assert [f.effect for f in loud.effects] == ["stribeck"]  # a spike is no push
-    assert any("8.9 to 9.2 s: torques that come only once" in line for line in loud.data)
+    assert any("8.9 to 9.2 s: torques that come only once" in line for line in loud.data_warnings)
     pictures = [
         evidence.draw_evidence_picture(collect_evidence(s, s.steps[0]))
         for s in (quiet.search, loud.search)
