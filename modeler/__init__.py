@@ -8,13 +8,13 @@
 All of it is `modeler.api`, whose names are here too. Data flows one way::
 
     effects -> robot -> derivation -> codegen => C + manifest
-            => runtime -> observation -> estimation -> validation -> diagnosis -> robot ...
+            => runtime -> logs -> regression -> estimation -> validation -> diagnosis -> robot ...
 
 The packages before the emitted C derive (sympy, casadi, jinja2); those after it only use numbers.
 A robot names effects of the catalogue; `formulas` stands beside codegen and writes for people;
-`simulation` has physics of its own; `logs` reads what people have, `numerics` has the linear
-algebra of all; `fleet`, `excitation` and `papers` build on them; `report` shows results, `api` and
-`cli` put the steps in a row. docs/explanation/architecture.md shows the architecture.
+`simulation` has physics of its own; `formats` reads and writes robots of other programs, `numerics`
+has the linear algebra of all; `excitation` and `papers` build on them; `views` shows results; `api`
+has a function a command, of which `cli` and `studio` are skins. docs/explanation/architecture.md shows the architecture.
 This module imports nothing before a name of the API is requested, so that the numeric stages never
 load the symbolic ones.
 """

@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
-from scipy.optimize import nnls
 from scipy.sparse import csr_array, eye_array, kron, vstack
 
 from modeler.core.brief import ShortRepr
@@ -425,6 +424,8 @@ class _SplineProblem:
 
     def _solve_monotone(self, factor: np.ndarray, side: np.ndarray, rising: int) -> np.ndarray:
         """The same with coefficients that never fall, or rise, along the first axis."""
+        from scipy.optimize import nnls  # it takes long to load
+
         first, *others = (count - 1 for count in self.splines.coordinates.cell_counts)
         steps = np.tril(np.ones((first, first)))
         steps[:, 1:] *= rising
