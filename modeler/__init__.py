@@ -14,7 +14,8 @@ The packages before the emitted C derive (sympy, casadi, jinja2); those after it
 A robot names effects of the catalogue; `formulas` stands beside codegen and writes for people;
 `simulation` has physics of its own; `formats` reads and writes robots of other programs;
 `numerics` has the linear algebra of all; `excitation` and `papers` build on them; `views` shows
-results; `api` has a function a command, of which `cli` and `studio` are skins. docs/explanation/architecture.md shows the architecture.
+results; `api` has a function a command, of which `cli` and `studio` are skins.
+docs/explanation/architecture.md shows the architecture.
 This module imports nothing before a name of the API is requested, so that the numeric stages never
 load the symbolic ones.
 """

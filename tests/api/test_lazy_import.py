@@ -45,7 +45,7 @@ def test_nothing_is_loaded_before_it_is_used(program: str, printed: str, tmp_pat
     command = [sys.executable, "-c", program, str(place)]
     ran = subprocess.run(command, capture_output=True, text=True, check=False)
     assert ran.stdout == f"{{'modeler'}}\nFalse\n{printed}", ran.stderr
-    assert {*modeler._ROOMS} == ROOMS
+    assert {*modeler._PACKAGES} == ROOMS
 
 
 def test_all_of_the_api_is_at_the_door_but_what_rooms_are_called() -> None:

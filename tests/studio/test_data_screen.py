@@ -86,7 +86,7 @@ def plays(w: Window, run: Any) -> None:
             expected = np.interp(at, run.time, run.q[:, j - 1])
             assert message["q"][str(j)] == pytest.approx(expected, abs=1e-3)
         stands = page.frames[-1].evaluate(
-            "Object.fromEntries(robot.free.map((n, k) => [n, modelerShow.u[k]]))"
+            "Object.fromEntries(robot.variables.map((n, k) => [n, modelerShow.u[k]]))"
         )
         assert stands == pytest.approx(message["q"], abs=1e-9)
         page.evaluate("posed.length = 0")
