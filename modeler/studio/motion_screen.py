@@ -137,7 +137,7 @@ def _draw_result(studio: Studio, step: Step, result: Mapping[str, Any]) -> None:
     random = result["random_motions"]
     ui.label(
         f"Condition number {result['condition_scaled']:.4g}, columns of length one; the best of "
-        f"{random['motions']} random motions has {random['condition_scaled_best']:.4g}."
+        f"{random['count']} random motions has {random['condition_scaled_best']:.4g}."
     )
     for line in _describe_separation(result.get("discrimination")):
         ui.label(line)
