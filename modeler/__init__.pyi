@@ -4,12 +4,8 @@ Of `effects`, which is a package, the function is `modeler.api.effects`.
 """
 
 from modeler.api import (
-    AddOptions as AddOptions,
     AnyLog as AnyLog,
     Asked as Asked,
-    CompareOptions as CompareOptions,
-    DiagnoseOptions as DiagnoseOptions,
-    GenerateOptions as GenerateOptions,
     Load as Load,
     Mapped as Mapped,
     Model as Model,

@@ -15,7 +15,6 @@ from typing import Any
 
 from modeler import api
 from modeler.core.manifest import EmittedModule
-from modeler.core.options import DiagnoseOptions
 from modeler.effects.catalogue import find_effect
 from modeler.regression.log import Log
 from modeler.regression.read import read_log
@@ -84,7 +83,7 @@ def diagnose_case(folder: Path, withheld: Sequence[str] = ()) -> dict[str, Any]:
         if (folder / "loaded.parquet").exists():
             asked = [folder / "loaded.parquet", folder / "loaded_holdout.parquet"]
         start = time.perf_counter()
-        diagnosis = api.diagnose(model, asked[:1], asked[1:], DiagnoseOptions((*withheld, *same)))
+        diagnosis = api.diagnose(model, asked[:1], asked[1:], without=[*withheld, *same])
     return diagnosis.to_json() | {"seconds": time.perf_counter() - start}
 
 

@@ -1,5 +1,4 @@
 from .checks import (
-    CompareOptions as CompareOptions,
     compare as compare,
     compare_methods as compare_methods,
     compare_models as compare_models,
@@ -15,8 +14,6 @@ from .fitting import (
 )
 from .fleets import fleet as fleet
 from .improve import (
-    AddOptions as AddOptions,
-    DiagnoseOptions as DiagnoseOptions,
     add as add,
     add_all as add_all,
     add_discoveries as add_discoveries,
@@ -69,7 +66,6 @@ from .reexports import (
 )
 from .workflow import (
     AnyLog as AnyLog,
-    GenerateOptions as GenerateOptions,
     compile as compile,
     compile_model as compile_model,
     convert as convert,

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from string import ascii_uppercase
-from typing import Any
+from typing import Any, Literal, overload
 
 import numpy as np
 
@@ -39,13 +39,31 @@ from modeler.runtime import CompiledModel
 from modeler.simulation import SimulatedLog
 
 
+@overload
 def compare(
     model: IdentifiedModel | Robot,
     logs: Logs,
     mapping: Mapped = (),
     *,
-    options: CompareOptions = CompareOptions(),
-) -> validation.Comparison:
+    free_run: Literal[False] = False,
+    **options: Any,
+) -> validation.Comparison: ...
+
+
+@overload
+def compare(
+    model: IdentifiedModel | Robot,
+    logs: Logs,
+    mapping: Mapped = (),
+    *,
+    free_run: Literal[True],
+    **options: Any,
+) -> validation.FreeRun: ...
+
+
+def compare(
+    model: IdentifiedModel | Robot, logs: Logs, mapping: Mapped = (), **options: Any
+) -> validation.Comparison | validation.FreeRun:
     """Compares measured with predicted torque on logs, after the processing of the fit.
 
     >>> [joint.joint.name for joint in compare(model, ["tue.parquet"]).joints]
@@ -55,10 +73,19 @@ def compare(
         model: fitted; or a robot, with the values that its file states and 0 for all others.
         logs: that it predicts.
         mapping: as of `read_logs`.
-        options: the reduced model, or the robot with a load.
+        options: of `CompareOptions`: essential, run_embedded_c; payload_mass [kg], payload_centre
+            ("X,Y,Z", m), payload_link; free_run (positions in place of torques), and with it
+            window [s], bound [share of the range of motion], controller ("HZ,RATIO").
+
+    Raises:
+        DataError: an option that is none, or that cannot be.
     """
-    (prepared,) = prepare_models([model], options)
-    compiled = compile_for_comparison(prepared, options)
+    chosen = CompareOptions.from_keywords("compare", options)
+    if chosen.free_run:
+        settings = build_free_run_settings(chosen)
+        return simulate_positions(model, logs, chosen, settings, mapping)[0]
+    (prepared,) = prepare_models([model], chosen)
+    compiled = compile_for_comparison(prepared, chosen)
     return compare_logs(prepared, workflow.convert_to_list(logs), compiled, mapping)[0]
 
 

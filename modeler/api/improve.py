@@ -5,6 +5,7 @@ from __future__ import annotations  # what a signature names need not be loaded
 import dataclasses
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from modeler import diagnosis
 from modeler.api.log_maps import Mapped
@@ -34,10 +35,10 @@ def diagnose(
     model: IdentifiedModel,
     logs: Logs,
     holdout: Logs = (),
-    options: DiagnoseOptions = DiagnoseOptions(),
     *,
     mapping: Mapped = (),
     reporter: Reporter = SILENT,
+    **options: Any,
 ) -> diagnosis.Diagnosis:
     """Finds the physical effects that the model lacks; errors come from held-out logs if any.
 
@@ -49,15 +50,17 @@ def diagnose(
         model: as it is.
         logs: to explain.
         holdout: logs of other motion to judge on.
-        options: effects to leave out, or to try besides; whether to propose equations for what has
-            no name, `discoveries` of the result.
         mapping: as of `read_logs`.
         reporter: of the progress.
+        options: of `DiagnoseOptions`: without (effects to leave out, as "spring@2"), effects_from
+            (folder of effects to try besides), discover (propose equations for what has no name,
+            `discoveries` of the result).
 
     Raises:
-        DataError: an effect or joint to leave out that there is not.
+        DataError: an option that is none; an effect or joint to leave out that there is not.
     """
-    return diagnose_logs(model, logs, holdout, options, mapping, reporter)[0]
+    chosen = DiagnoseOptions.from_keywords("diagnose", options)
+    return diagnose_logs(model, logs, holdout, chosen, mapping, reporter)[0]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -119,14 +122,13 @@ def add_discoveries(
     diagnosis_result: diagnosis.Diagnosis,
     logs: Logs,
     holdout: Logs = (),
-    options: DiagnoseOptions = DiagnoseOptions(),
     *,
     mapping: Mapped = (),
+    **options: Any,
 ) -> M:
     """Adds the first proposed equation of each joint where that lowers the error.
 
-    >>> proposing = DiagnoseOptions(discover=True)
-    >>> found = diagnose(model, ["mon.parquet"], ["tue.parquet"], proposing)
+    >>> found = diagnose(model, ["mon.parquet"], ["tue.parquet"], discover=True)
     >>> better = add_discoveries(model, found, ["mon.parquet"], ["tue.parquet"])
     >>> better.error("tue.parquet") <= model.error("tue.parquet")
     True
@@ -136,10 +138,14 @@ def add_discoveries(
         diagnosis_result: the diagnosis, with `discover`.
         logs: to fit to.
         holdout: logs of other motion to judge on.
-        options: as of the diagnosis.
         mapping: as of `read_logs`.
+        options: as of the diagnosis.
+
+    Raises:
+        DataError: an option that is none.
     """
-    shared = _read_shared_effects(model, options.effects_from)
+    chosen = DiagnoseOptions.from_keywords("add_discoveries", options)
+    shared = _read_shared_effects(model, chosen.effects_from)
     case = _open_model(model, logs, holdout, mapping, shared)
     return _restore_class(model, add_proposals(case, diagnosis_result)[0])
 
@@ -186,14 +192,14 @@ def add(
     effect: str,
     logs: Logs,
     holdout: Logs = (),
-    options: AddOptions = AddOptions(),
     *,
     mapping: Mapped = (),
     reporter: Reporter = SILENT,
+    **options: Any,
 ) -> M:
     """Adds one effect and fits again; `table("waterfall")` lists the errors.
 
-    >>> better = add(model, "spring", ["mon.parquet"], ["tue.parquet"], AddOptions(joint="1"))
+    >>> better = add(model, "spring", ["mon.parquet"], ["tue.parquet"], joint="1")
     >>> better.table("waterfall").column("effect")
     ['as fitted', 'spring']
 
@@ -203,25 +209,28 @@ def add(
             `add_all`; "undo": as `remove_last`.
         logs: to fit to.
         holdout: logs of other motion to judge on.
-        options: the joint, of what a learned law is a function, effects to choose from besides.
         mapping: as of `read_logs`.
         reporter: of the progress.
+        options: of `AddOptions`: joint (where it explains most if left out), effects_from (folder
+            of effects to choose from besides); of a learned law: of ("q", "v" ...), odd, monotone
+            ("rising" or "falling"); of "auto": learned (a law for what is left).
 
     Raises:
         DataError: no such effect, one that is there already, cannot be distinguished from the logs,
-            or cannot be added; options that this effect has no use for.
+            or cannot be added; options that are none, or that this effect has no use for.
     """
-    return add_to_model(model, effect, logs, holdout, options, mapping, reporter)[0]
+    chosen = AddOptions.from_keywords("add", options)
+    return add_to_model(model, effect, logs, holdout, chosen, mapping, reporter)[0]
 
 
 def add_all(
     model: M,
     logs: Logs,
     holdout: Logs = (),
-    options: AddOptions = AddOptions(),
     *,
     mapping: Mapped = (),
     reporter: Reporter = SILENT,
+    **options: Any,
 ) -> M:
     """Adds all effects that a diagnosis finds and that lower the error; see `add`.
 
@@ -229,16 +238,25 @@ def add_all(
     >>> [step.effect for step in better.history[1:]]
     ['spring']
 
+    Args:
+        model: as it is.
+        logs: to fit to.
+        holdout: logs of other motion to judge on.
+        mapping: as of `read_logs`.
+        reporter: of the progress.
+        options: of `AddOptions`: effects_from, learned.
+
     Raises:
-        DataError: nothing that can be added is missing.
+        DataError: nothing that can be added is missing; an option that is none, or of one effect.
     """
-    return add_to_model(model, ALL_MISSING, logs, holdout, options, mapping, reporter)[0]
+    chosen = AddOptions.from_keywords("add_all", options)
+    return add_to_model(model, ALL_MISSING, logs, holdout, chosen, mapping, reporter)[0]
 
 
 def remove_last(model: M, logs: Logs, mapping: Mapped = ()) -> M:
     """Removes the effect that was added last and fits again.
 
-    >>> better = add(model, "spring", ["mon.parquet"], options=AddOptions(joint="1"))
+    >>> better = add(model, "spring", ["mon.parquet"], joint="1")
     >>> [step.effect for step in remove_last(better, ["mon.parquet"]).history[1:]]
     []
 

@@ -21,7 +21,6 @@ from modeler.api.workflow import AnyLog, Logs, compile, convert_to_list, generat
 from modeler.core.errors import DataError
 from modeler.core.files import read_file
 from modeler.core.manifest import EmittedModule
-from modeler.core.options import AddOptions, DiagnoseOptions
 from modeler.core.table import label_values
 from modeler.estimation import IdentifiedModel, ParameterEstimate, model_file
 from modeler.formats import Exported, read_robot
@@ -325,7 +324,7 @@ class Model(IdentifiedModel):
         held_out_logs = self.held_out if held_out is None else convert_to_list(held_out)
         fit_logs = self.find_logs(logs, "missing")
         return improve.diagnose(
-            self, fit_logs, held_out_logs, DiagnoseOptions(tuple(without)), mapping=mapping
+            self, fit_logs, held_out_logs, mapping=mapping, without=tuple(without)
         )
 
     def add(
@@ -350,8 +349,8 @@ class Model(IdentifiedModel):
         """
         held_out_logs = self.held_out if held_out is None else tuple(convert_to_list(held_out))
         fit_logs = self.find_logs(logs, "add")
-        options = AddOptions(None if joint is None else str(joint))
-        better = improve.add(self, effect, fit_logs, held_out_logs, options, mapping=mapping)
+        place = None if joint is None else str(joint)
+        better = improve.add(self, effect, fit_logs, held_out_logs, mapping=mapping, joint=place)
         memory_logs = tuple(log for log in fit_logs if isinstance(log, Log))
         return dataclasses.replace(
             better, in_memory_logs=memory_logs or self.in_memory_logs, held_out=held_out_logs

@@ -26,7 +26,7 @@ from modeler.api.workflow import (
 from modeler.core.errors import DataError
 from modeler.core.jobs import SILENT, Reporter, ignore_progress
 from modeler.core.json import Document
-from modeler.core.options import ExciteOptions, OptionError
+from modeler.core.options import ExciteOptions, OptionError, check_keywords
 from modeler.effects import find_effect
 from modeler.estimation import FitResult, IdentifiedModel, identify
 from modeler.numerics.filters import BANDWIDTH
@@ -269,17 +269,10 @@ def excite(
         DataError: limits or options that cannot be.
         RobotError: an empty range.
     """
-    chosen = _build_options({"rate": THRESHOLDS.next_log_rate, **options})
+    stated = {"rate": THRESHOLDS.next_log_rate, **options}
+    chosen = ExciteOptions.from_keywords("excite", stated)
     subject, bounds = prepare_search(thing, chosen, limits, boxes)
     return search_motion(subject, bounds, chosen, logs, mapping, reporter=reporter).motion
-
-
-def _build_options(options: Mapping[str, Any]) -> ExciteOptions:
-    known = [field.name for field in dataclasses.fields(ExciteOptions)]
-    for name in options:
-        if name not in known:
-            raise DataError(f"excite: got {name}; expected some of {', '.join(known)}")
-    return ExciteOptions(**options)
 
 
 def prepare_search(
@@ -474,7 +467,7 @@ def discriminating_motion(
     Raises:
         DataError: an effect or joint that is not there, or that the model has.
     """
-    chosen = _build_options(options)
+    chosen = ExciteOptions.from_keywords("discriminating_motion", options)
     subject, bounds = prepare_search(model, chosen, limits, boxes)
     question = parse_question(subject, f"{first},{second}", "discriminating_motion:")
     with reporter.show_progress(f"looking for a motion of {subject.robot.name}") as bar:
@@ -640,10 +633,8 @@ def build_settings(
     Raises:
         DataError: one that is none, or that cannot be.
     """
-    known = {field.name for field in dataclasses.fields(SimulationSettings)}
-    for name in options:
-        if name not in known:
-            raise DataError(f"simulate: got {name}; expected some of {', '.join(sorted(known))}")
+    known = sorted(field.name for field in dataclasses.fields(SimulationSettings))
+    check_keywords("simulate", options, known)
     hidden = tuple(
         simulation.parse_hidden_effect(each) if isinstance(each, str) else each for each in hide
     )

@@ -91,9 +91,9 @@ def define_effect(robot: Robot, name: str, **definition: Any) -> Robot:
 def generate(
     source: Derivation | IdentifiedModel,
     folder: str | Path | None = None,
-    options: GenerateOptions = GenerateOptions(),
     *,
     force: bool = False,
+    **options: Any,
 ) -> EmittedModule:
     """Generates the C module of a robot; of a model with functions that have its values.
 
@@ -103,27 +103,31 @@ def generate(
     Args:
         source: what was derived, or a fitted model.
         folder: the module is written there if it is given.
-        options: precision, and what is there besides.
         force: write also over files that no earlier run wrote, or that were edited since.
+        options: of `GenerateOptions`: precision ("double", "single"), cuda, structured_text, a2l,
+            frames (names of rows or links), only (names of functions), vectors, measure (a machine,
+            whose stack and flash [bytes] and instructions are counted).
 
     Raises:
+        DataError: an option that is none.
         BuildError: the compiler for that machine is missing.
         ManifestError: this version derives another manifest than the one that the values of the
             model belong to.
         ModelerError: the folder holds such files and `force` is not given; or it cannot be written.
     """
+    chosen = GenerateOptions.from_keywords("generate", options)
     if isinstance(source, Derivation):
         derivation, fitted = source, None
     else:
         derivation, fitted = emit_model(source)[0], model_file.build_fitted_spec(source)
     control = None
-    if options != GenerateOptions(options.precision, options.cuda):
+    if chosen != GenerateOptions(chosen.precision, chosen.cuda):
         from modeler.codegen import Control  # who fits need not wait for it
 
-        control = Control(**select_attributes(options, CONTROLLED))
+        control = Control(**select_attributes(chosen, CONTROLLED))
     return generate_robot(
-        *(derivation, folder, force, fitted, options.precision, options.cuda, control),
-        measure=options.measure,
+        *(derivation, folder, force, fitted, chosen.precision, chosen.cuda, control),
+        measure=chosen.measure,
     )
 
 
@@ -425,4 +429,4 @@ def load_on_gpu(derivation: Derivation) -> GpuModel:
         BuildError: no CuPy, no graphics processor, or the compiler refused.
         EmitError: the robot has loops.
     """
-    return load_gpu(generate(derivation, options=GenerateOptions(cuda=True)))
+    return load_gpu(generate(derivation, cuda=True))

@@ -391,7 +391,7 @@ def run_generate(args: argparse.Namespace) -> GeneratedFolder:
         from modeler.api.workflow import generate as generate_of_model
 
         with show_activity(f"deriving {thing.spec.robot}"):
-            emitted = generate_of_model(thing, args.out, options, force=args.force)
+            emitted = generate_of_model(thing, args.out, force=args.force, **vars(options))
         for line in thing.warning:
             print_error(line)
     spec, fitted = emitted.spec, emitted.spec.fitted

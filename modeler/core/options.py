@@ -24,6 +24,7 @@ from modeler.core.choices import (
     Precision,
 )
 from modeler.core.errors import DataError
+from modeler.core.toml_cells import suggest_name
 
 METHODS = (*get_args(Method), GAIN_METHOD, TWO_STEPS)
 """Ids of all estimators of `modeler fit`."""
@@ -73,6 +74,14 @@ def check_together(values: Mapping[str, Any], rules: Iterable[Rule]) -> None:
                 raise OptionError(f"{{--{other}}}: got it with {{--{name}}}; leave one of them out")
 
 
+def check_keywords(verb: str, names: Iterable[str], known: Sequence[str]) -> None:
+    """Raises an error for a keyword that a function does not take."""
+    for name in names:
+        if name not in known:
+            hint = suggest_name(name, known)
+            raise DataError(f"{verb}: got {name}; expected some of {', '.join(known)}{hint}")
+
+
 def _is_present(value: object) -> bool:
     return value is not None and value is not False and value not in ((), [], "")
 
@@ -91,6 +100,16 @@ class Options:
         """Checks what the metadata of the fields say of each other."""
         rules = [(each.name, each.metadata["needs"], ()) for each in fields(self)]
         check_together(vars(self), rules)
+
+    @classmethod
+    def from_keywords(cls, verb: str, names: Mapping[str, Any]) -> Self:
+        """Returns the options that keywords of a function state, by their names.
+
+        Raises:
+            DataError: a keyword that is none of them; begins with the verb.
+        """
+        check_keywords(verb, names, [each.name for each in fields(cls)])
+        return cls.from_names(names)
 
     @classmethod
     def from_names(cls, values: Mapping[str, Any]) -> Self:

@@ -13,7 +13,6 @@ import modeler.api as api
 from modeler.cli import main
 from modeler.core.errors import DataError, ModelerError
 from modeler.core.files import compute_checksum
-from modeler.core.options import AddOptions
 from modeler.estimation.payload import Payload
 
 
@@ -111,12 +110,18 @@ def test_a_folder_has_the_checksum_of_what_lies_in_it(tmp_path: Path) -> None:
 
 
 def test_add_and_undo(model, logs) -> None:
-    better = api.add(model, "spring", [logs[0]], [logs[1]], AddOptions("1"))
+    better = api.add(model, "spring", [logs[0]], [logs[1]], joint="1")
     waterfall = better.table("waterfall")
     assert waterfall.column("effect") == ["as fitted", "spring"]
     assert waterfall.column("error")[1] < 0.8 * waterfall.column("error")[0]
     back = api.remove_last(better, [logs[0]])
     np.testing.assert_allclose(back.beta, model.beta, rtol=1e-9)
+
+
+def test_compare_in_free_run_is_free_run(model, logs) -> None:
+    run = api.compare(model, logs[1:], free_run=True, window=0.2)
+    assert run.window == 0.2
+    assert run.to_json() == api.free_run(model, logs[1:], api.FreeRunSettings(window=0.2)).to_json()
 
 
 def test_home_is_that_of_the_command(tmp_path: Path) -> None:
@@ -173,6 +178,14 @@ REFUSED: dict[str, tuple[Callable[[Any, Any], object], str]] = {
     "limits": (excite(limits={"1": (1.0, 2.0)}), "limits 1=.*: expected 1=LOWER,UPPER,SPEED"),
     "joint": (excite(boxes={"9": (0,) * 6}), "boxes 9=.*: no moving joint 9"),
     "wish": (excite(speed=3), "excite: got speed; expected some of .*duration"),
+    "slip": (
+        lambda chain, logs: api.add(api.fit(*chain), "spring", logs, joints="1"),
+        r'add: got joints; expected some of joint, .*learned \(did you mean "joint"\?\)$',
+    ),
+    "option alone": (
+        lambda chain, logs: api.compare(api.fit(*chain), logs, window=1.0),
+        "window: needs free_run",
+    ),
     "setting": (
         lambda chain, logs: api.simulate(api.load("emps"), colour="red"),
         "got colour; expected some of .*duration",

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from modeler.api import GenerateOptions, generate as generate_robot
+from modeler.api import generate as generate_robot
 from modeler.api.workflow import load
 from modeler.cli import main
 from modeler.codegen import Control, derive, generate
@@ -52,7 +52,7 @@ rows = [["hand-1", "2", 0.1, "0.2", 0.3, -0.4, 0.5], ["hand_1", "1", 0, 0, 0, 0,
 
 def test_links_of_frames_have_their_jacobians():
     robot = parse_robot_text(load("two-link").text + FRAMES, "hands")
-    model = loaded(generate_robot(derive(robot), options=GenerateOptions(frames=("hand-1", "1"))))
+    model = loaded(generate_robot(derive(robot), frames=["hand-1", "1"]))
     q = np.array([0.4, -1.1])
     on = shift(0, 0.1) @ shift(2, 0.2) @ turn(2, 0.5) @ turn(1, -0.4) @ turn(0, 0.3)
 
@@ -76,7 +76,7 @@ def test_links_of_frames_have_their_jacobians():
 def test_frames_that_cannot_be_are_told(names, text):
     result = derive(parse_robot_text(load("two-link").text + FRAMES, "hands"))
     with pytest.raises((DerivationError, EmitError)) as error:
-        generate_robot(result, options=GenerateOptions(frames=tuple(names)))
+        generate_robot(result, frames=names)
     assert text in str(error.value) and "\n" not in str(error.value)
 
 

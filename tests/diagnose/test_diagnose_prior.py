@@ -49,7 +49,7 @@ def test_with_link_data_a_counterbalance_is_named(seed):
     compiled = load_module(model.spec, model.sources)
     read = LogSplit(*(read_logs(compiled, some) for some in logs))
     named, _ = add_findings(model, compiled, result.effects, read)
-    for better in (add(model, "counterbalance", *logs, "2"), named):
+    for better in (add(model, "counterbalance", *logs, joint="2"), named):
         assert [step.effect for step in better.history] == ["", "counterbalance"]
         assert better.history[-1].is_improvement and not better.fit.prior_conflicts
         z = []

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 import pytest
 
-from modeler.api import GenerateOptions, derive, generate
+from modeler.api import derive, generate
 from modeler.core.errors import ShapeError
 from modeler.regression import segments
 from tests.effects.test_own_effects_in_c import REFERENCE, arm_with
@@ -83,7 +83,7 @@ def test_the_c_steps_lags_as_the_equations_say(precision: Literal["double", "sin
     """At random states, what is followed by numpy from the columns of the same C."""
     definition = {"columns": {"Kz": "z"}, "lag": FOLLOWED, "shapes": {"p": [1, 2], "tau": [0.1, 1]}}
     robot = arm_with("late", definition, SHAPES, reference=True)
-    compiled = loaded(generate(derive(robot), options=GenerateOptions(precision)))
+    compiled = loaded(generate(derive(robot), precision=precision))
     kinds = ["time", "direction", "since", "followed", "lag"]
     assert [s.kind for s in compiled.spec.signals] == kinds
     rng = np.random.default_rng(17)

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from modeler.api import GenerateOptions, define_effect, derive, generate, load
+from modeler.api import define_effect, derive, generate, load
 from modeler.core.errors import EmitError
 from modeler.robot.edit import insert_effect, replace_reference
 from modeler.robot.read import parse_robot_text
@@ -101,7 +101,7 @@ def test_an_equation_reads_the_motion_of_other_joints(precision):
     robot = arm_with("leaning", {"columns": columns, "shapes": {"w": [0.5, 1]}}, {"w": 0.8})
     derivation = derive(robot)
     assert derivation.base.proof.kind == "exact"
-    compiled = loaded(generate(derivation, options=GenerateOptions(precision)))
+    compiled = loaded(generate(derivation, precision=precision))
     q, v, a = np.random.default_rng(13).uniform(-2.0, 2.0, (3, SAMPLES, 3))
     phi = compiled.regressor(q, v, a)
     got = columns_of(robot, "leaning", compiled, phi)

@@ -8,7 +8,6 @@ import pytest
 
 from modeler import api
 from modeler.core.errors import DataError
-from modeler.core.options import AddOptions
 from modeler.diagnosis.add import add_effect, add_findings
 from modeler.diagnosis.added_model import LogSplit, build_rows, describe_additions
 from modeler.diagnosis.diagnosis import diagnose
@@ -73,12 +72,11 @@ def test_viscous_and_coulomb_one_after_the_other(loops: Path) -> None:
     """In a joint without motor they are its friction, which is one effect too."""
     model = load_model(loops / "m.json")
     logs = [loops / "train.parquet"], [loops / "other.parquet"]
-    on_21 = AddOptions("21")
-    one = api.add(model, "viscous", *logs, on_21)
-    two = api.add(one, "coulomb", *logs, on_21)
+    one = api.add(model, "viscous", *logs, joint="21")
+    two = api.add(one, "coulomb", *logs, joint="21")
     assert "coulomb, joint 21: the held-out error falls: joint 11" in describe_additions(two)[-1]
     assert 'viscous = ["21"]' in two.robot_text and 'coulomb = ["21"]' in two.robot_text
-    both = api.add(model, "passive_friction", *logs, on_21)
+    both = api.add(model, "passive_friction", *logs, joint="21")
     assert both.history[-1].error == pytest.approx(two.history[-1].error, rel=1e-3)
 
 

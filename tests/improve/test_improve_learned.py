@@ -7,7 +7,6 @@ import pytest
 
 from modeler import api
 from modeler.core.errors import DataError
-from modeler.core.options import AddOptions
 from modeler.diagnosis import LawRequest
 from modeler.diagnosis.learn import learn_law
 from modeler.diagnosis.state import SearchData, analyse_logs, build_state
@@ -31,7 +30,7 @@ def hidden(log: Log) -> np.ndarray:
 
 def test_the_error_falls_and_physics_stays(case: Case, tmp_path: Path) -> None:
     fitted, train, holdout = case.hidden(hidden)
-    save_model(tmp_path / "m.json", api.add(fitted, "learned", [train], [holdout], AddOptions("2")))
+    save_model(tmp_path / "m.json", api.add(fitted, "learned", [train], [holdout], joint="2"))
     better = load_model(tmp_path / "m.json")
     first, last = better.history
     assert (
@@ -89,6 +88,6 @@ def test_auto_puts_laws_in_last() -> None:
         return hidden(log) + on_joint(log, 0, 1.5 * np.sin(q[:, 0]) * np.abs(np.sin(q[:, 0])))
 
     fitted, train, holdout = demonstration(robot="two-link").hidden(both)
-    better = api.add_all(fitted, [train], [holdout], AddOptions(learned=True))
+    better = api.add_all(fitted, [train], [holdout], learned=True)
     kinds = [step.is_learned for step in better.history[1:]]
     assert kinds == sorted(kinds) and any(kinds)

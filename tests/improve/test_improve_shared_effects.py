@@ -7,7 +7,6 @@ import pytest
 
 from modeler import api
 from modeler.core.errors import DataError, RobotError
-from modeler.core.options import AddOptions, DiagnoseOptions
 from modeler.estimation.model_file import save_model
 from modeler.regression.log import Log
 from modeler.robot.edit import collect_shared_effects, export_effect
@@ -54,20 +53,20 @@ def folder(tmp_path: Path) -> Path:
 @pytest.mark.rotating("effects are added to simulated runs")
 def test_it_is_found_and_added_on_a_robot_that_does_not_define_it(case: Case, folder: Path) -> None:
     model, train, holdout = case.hidden(brake)
-    result = api.diagnose(model, [train], [holdout], DiagnoseOptions(effects_from=folder))
+    result = api.diagnose(model, [train], [holdout], effects_from=folder)
     assert [(f.effect, f.joint) for f in result.effects] == [("eddy_brake", "2")]
     left = [line for line in result.sentences if line.startswith("left out: ")]
     assert left == [
         f"left out: leaning ({folder / 'far.toml'}: it reads q7, no joint of demo-arm)",
         "left out: learned_2 (a learned law, no physics)",
     ]
-    better = api.add(model, "eddy_brake", [train], [holdout], AddOptions("2", folder))
+    better = api.add(model, "eddy_brake", [train], [holdout], joint="2", effects_from=folder)
     local = parse_robot_text(better.robot_text, "better").own_effects
     assert [effect.id for effect in local] == ["eddy_brake"]
     values = {p.name: p.value for p in better.fit.parameters}
     assert values["Keb2"] == pytest.approx(4.0, rel=0.04)
     with pytest.raises(DataError, match=r"leaning of .*far\.toml: it reads q7, no joint of"):
-        api.add(model, "leaning", [train], options=AddOptions(None, folder))
+        api.add(model, "leaning", [train], effects_from=folder)
     with pytest.raises(DataError, match="eddy_brake: no such effect"):
         api.add(model, "eddy_brake", [train])
 
@@ -83,7 +82,7 @@ def test_a_law_that_was_learned_is_added_by_its_name(case: Case, folder: Path) -
         return on_joint(log, 1, 5.0 * np.tanh(v / 0.002) * law.columns[0].equation.law(speed))
 
     model, train, holdout = case.hidden(bent)
-    better = api.add(model, "learned_2", [train], [holdout], AddOptions("2", folder))
+    better = api.add(model, "learned_2", [train], [holdout], joint="2", effects_from=folder)
     value = {p.name: p for p in better.fit.parameters}["Lw2"]
     assert value.sigma is not None and abs(value.value - 5.0) < 4.0 * value.sigma
     assert better.history[1].is_learned

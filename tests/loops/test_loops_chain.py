@@ -9,7 +9,6 @@ import pytest
 from modeler import api
 from modeler.cli import main
 from modeler.core.errors import DataError
-from modeler.core.options import AddOptions
 from modeler.robot.read import read_robot
 from modeler.simulation import HiddenEffect, SimulationSettings, simulate
 from tests.robots import ROBOTS
@@ -99,5 +98,4 @@ def test_a_law_of_the_load_is_refused(tmp_path: Path) -> None:
     model = api.identify(api.load("five-bar"), [logged("five-bar", tmp_path, "a.csv", 1)])
     text = "of load: five-bar has loops, and there a law reads the q, v and a of its joint"
     with pytest.raises(DataError, match=text):
-        options = AddOptions("11", of=("load",))
-        api.add(model, "learned", [tmp_path / "a.csv"], options=options)
+        api.add(model, "learned", [tmp_path / "a.csv"], joint="11", of=["load"])

@@ -5,7 +5,6 @@ from collections.abc import Callable
 import numpy as np
 
 from modeler import api
-from modeler.core.options import DiagnoseOptions
 from modeler.core.toml_cells import TomlCell
 from modeler.diagnosis import Candidate, analyse_logs, build_state, learn_law
 from modeler.diagnosis.candidates import Rows, evaluate_equations
@@ -56,7 +55,7 @@ def what_is_proposed(own: Machine) -> str:
     """The equations proposed on the joint of the law, by how much their torque is another."""
     assert own.truth is not None
     model = api.open_model(own.model)
-    result = api.diagnose(model, list(own.train), list(own.holdout), DiagnoseOptions(discover=True))
+    result = api.diagnose(model, list(own.train), list(own.holdout), discover=True)
     here = next((d for d in result.discoveries or () if d.joint == own.joint), None)
     predicted = Predictions(own, own.truth.joint)
     names, text = [joint.name for joint in model.spec.joints], []
