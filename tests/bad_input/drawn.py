@@ -22,22 +22,13 @@ from tests.robot.texts import ARM, OWN_EFFECTS
 from tests.robot_texts import CRANK
 
 SAMPLES = 400
+FACTORS, PUT = (0.0, -1.0, 57.3, 1e3, 1e-3, 1e200, 1e300), (np.nan, np.inf, 1e30, 0.0, -1e300, 7.0)
 LOG = "fit two-link bad{} --out f.json"
 ROBOTS = (*([ARM, OWN_EFFECTS, CRANK] * 6), *map(read_builtin_robot, list_builtin_robots()))
 KINDS = (
-    pa.float32(),
-    pa.int64(),
-    pa.int8(),
-    pa.string(),
-    pa.bool_(),
-    pa.binary(),
-    pa.null(),
-    pa.timestamp("ns"),
-    pa.list_(pa.float64()),
-    pa.dictionary(pa.int32(), pa.string()),
-    pa.decimal128(20, 6),
-    pa.duration("ms"),
-    pa.float16(),
+    *(pa.float32(), pa.int64(), pa.int8(), pa.string(), pa.bool_(), pa.binary(), pa.null()),
+    *(pa.timestamp("ns"), pa.list_(pa.float64()), pa.dictionary(pa.int32(), pa.string())),
+    *(pa.decimal128(20, 6), pa.duration("ms"), pa.float16()),
 )
 COMMANDS = (
     "derive wrist --no-terms",
@@ -54,23 +45,12 @@ COMMANDS = (
     "fit two-link a.csv --map q1=q1:rad --map tau1=tau1 --out f.json",
 )
 WORDS = (
-    *NUMBERS,
-    '"',
-    "[",
-    "]",
-    "{",
-    "}",
-    "=",
-    ",",
-    "\n",
-    *"# q1 sin( ) ** pi [mdh] rows".split(),
-    "\0",
-    "é",
-    "\\",
-    *"true ' time tau1 ; rad".split(),
+    *(*NUMBERS, '"', "[", "]", "{", "}", "=", ",", "\n", *"# q1 sin( ) ** pi [mdh] rows".split()),
+    *("\0", "é", "\\", *"true ' time tau1 ; rad".split()),
 )
 
 
+DRAWN = "toml toml par csv csv parquet urdf urdf mjcf model model map motion command command"
 AS_BYTES = {"par": "x.par", "urdf": "good.urdf", "mjcf": "good.xml"}
 """Formats of robots of which the bytes are spoilt: the good file."""
 
@@ -86,11 +66,7 @@ class Drawer:
 
     def draw(self) -> Mutant:
         """The next one."""
-        kind = self.random.choice(
-            """
-                toml toml par csv csv parquet urdf urdf mjcf model model map motion command command
-            """.split()
-        )
+        kind = self.random.choice(DRAWN.split())
         return getattr(self, f"_{kind}")() if kind not in AS_BYTES else self._as_bytes(kind)
 
     def _as_bytes(self, kind: str) -> Mutant:
@@ -109,21 +85,16 @@ class Drawer:
             (pick.choice(kinds), pick.randrange(10**6), pick.randint(1, 40), pick.randrange(10**6))
             for _ in range(pick.randint(1, most))
         ]
-        return edited_bytes(data, made, WORDS), " ".join(
-            f"{k}@{at % (len(data) + 1)}" for k, at, *_ in made
-        )
+        done = (f"{k}@{at % (len(data) + 1)}" for k, at, *_ in made)
+        return edited_bytes(data, made, WORDS), " ".join(done)
 
     def _structure(self, raw: object) -> str:
         pick = self.random
         kinds = ("put", "put", "take out", "double", "rename", "copy")
-        made = [
-            (
-                [pick.randrange(10**6) for _ in range(pick.randint(1, 6))],
-                pick.choice(kinds),
-                pick.choice(VALUES_DRAWN),
-            )
-            for _ in range(pick.randint(1, 2))
-        ]
+        made = []
+        for _ in range(pick.randint(1, 2)):
+            way = [pick.randrange(10**6) for _ in range(pick.randint(1, 6))]
+            made.append((way, pick.choice(kinds), pick.choice(VALUES_DRAWN)))
         edited_structure(raw, made)
         return " ".join(f"{kind} {str(value)[:20]!r}" for _, kind, value in made)
 
@@ -153,14 +124,10 @@ class Drawer:
                 del table[name]
             elif how == "times":
                 with np.errstate(all="ignore"):
-                    table[name] = table[name] * pick.choice(
-                        [0.0, -1.0, 57.3, 1e3, 1e-3, 1e200, 1e300]
-                    )
+                    table[name] = table[name] * pick.choice(FACTORS)
             elif how == "value":
                 at = pick.randrange(SAMPLES)
-                table[name][at : at + pick.randint(1, 80)] = pick.choice(
-                    [np.nan, np.inf, 1e30, 0.0, -1e300, 7.0]
-                )
+                table[name][at : at + pick.randint(1, 80)] = pick.choice(PUT)
             elif how == "roll":
                 table[name] = np.roll(table[name], pick.randint(1, 100))
             elif how == "same":
@@ -226,18 +193,11 @@ class Drawer:
     def _command(self) -> Mutant:
         pick = self.random
         words = pick.choice(COMMANDS).split()
-        odd = [
-            "",
-            *"""
-                0 -1 nan 1e9 q9 --out --joint no.csv a.csv é - 1:2:3 @ q1= wrist c_code m.json
-            """.split(),
-            "x" * 300,
-        ]
+        odd = "0 -1 nan 1e9 q9 --out --joint no.csv a.csv é - 1:2:3 @ q1= wrist c_code m.json"
+        odd = ["", *odd.split(" "), "x" * 300]
         for _ in range(pick.randint(1, 2)):
-            at, how = (
-                pick.randrange(len(words)),
-                pick.choice(["out", "put", "in", "spell", "exchange"]),
-            )
+            at = pick.randrange(len(words))
+            how = pick.choice(["out", "put", "in", "spell", "exchange"])
             if how == "out" and len(words) > 1:
                 del words[at]
             elif how == "put":

@@ -7,6 +7,9 @@ from tests.bad_input.workdir import Workdir
 COMPARE = "compare m.json b.csv --json c.json"
 FIT = "fit two-link a.csv --out f.json --json g.json"
 SESSION = {"MODELER_CACHE": AS_IT_IS}
+REPORT = f"{COMPARE} --report page.html"
+NOWHERE = "/proc/nowhere"
+HOMELESS = {"HOME": NOWHERE, "MODELER_CACHE": None, "XDG_CACHE_HOME": None}
 OWN_CACHE = {"MODELER_CACHE": "WORKDIR/cache", "CFLAGS": "-O0"}
 
 
@@ -23,9 +26,8 @@ def on(
 ) -> Row:
     """A row in a process of its own, with variables set or taken away."""
     process = Process({**OWN_CACHE, **env}, file_limit, slow=slow)
-    return row(
-        f"environment: {what}", outcome, run, *words, make=make, process=process, beside=beside
-    )
+    name = f"environment: {what}"
+    return row(name, outcome, run, *words, make=make, process=process, beside=beside)
 
 
 def _true(workdir: Workdir) -> None:
@@ -43,23 +45,9 @@ COMPILER = [
 CACHE = [
     on("the cache is in Greek", "works", COMPARE, MODELER_CACHE="WORKDIR/κρυφό", beside=("κρυφό",)),
     on("HOME is not set", "works", COMPARE, HOME=None),
-    on(
-        "HOME is nowhere, and is needed",
-        "refused",
-        COMPARE,
-        "MODELER_CACHE",
-        HOME="/proc/nowhere",
-        MODELER_CACHE=None,
-        XDG_CACHE_HOME=None,
-    ),
+    on("HOME is nowhere, and is needed", "refused", COMPARE, "MODELER_CACHE", **HOMELESS),
     on("TMPDIR is nowhere", "ends", COMPARE, "", TMPDIR="/nowhere"),
-    on(
-        "matplotlib may keep nothing",
-        "ends",
-        COMPARE + " --report page.html",
-        "",
-        MPLCONFIGDIR="/proc/nowhere",
-    ),
+    on("matplotlib may keep nothing", "ends", REPORT, "", MPLCONFIGDIR=NOWHERE),
 ]
 
 # Streams that are closed, full or short of letters: tests/cli/test_streams.py.

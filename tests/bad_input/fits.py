@@ -6,9 +6,7 @@ from typing import Any
 from tests.bad_input.row import Result
 from tests.texts import read_pairs
 
-TRUE = read_pairs(
-    "ZZ1R 0.48 MX1R 1.4 MY1 0.0 Fv1 0.8 Fs1 1.5 ZZ2 0.06 MX2 0.3 MY2 0.0 Fv2 0.4 Fs2 0.8"
-)
+TRUE = read_pairs("ZZ1R 0.48 MX1R 1.4 MY1 0 Fv1 0.8 Fs1 1.5 ZZ2 0.06 MX2 0.3 MY2 0 Fv2 0.4 Fs2 0.8")
 """Base parameters of two-link as simulated: ZZ1R = ZZ1 + L1**2 M2, MX1R = MX1 + L1 M2."""
 
 

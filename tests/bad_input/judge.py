@@ -32,9 +32,7 @@ LONGEST = 1200
 AS_IT_IS = "as it is"
 """Value of a variable that a row leaves as the tests have it."""
 
-OUTPUTS = tuple(
-    "--out --json --report --picture --coefficients-out --robot-out --truth-out".split()
-)
+OUTPUTS = "--out --json --report --picture --coefficients-out --robot-out --truth-out".split()
 
 REMEDY = re.compile(
     r"\b(expected|write|use|choose|give|leave|check|add|remove|declare|did you mean|delete|record"

@@ -11,6 +11,7 @@ COMPARE = "compare m.json bad.csv --json c.json"
 DIAGNOSE = "diagnose m.json bad.csv --json d.json"
 SAMPLES = 1600
 HALF = SAMPLES // 2
+CHECKS = {"works": true_values, "told": unusable_or_true, "ends": unusable_or_true}
 
 
 def signal(what, outcome, edit, *words, run=FIT, of="a.csv", theme="signal", alone=False):
@@ -19,11 +20,7 @@ def signal(what, outcome, edit, *words, run=FIT, of="a.csv", theme="signal", alo
     def make(workdir: Workdir) -> None:
         workdir.log("bad.csv", edit, of)  # type: ignore
 
-    check = None
-    if run == FIT:
-        check = {"works": true_values, "told": unusable_or_true, "ends": unusable_or_true}.get(
-            outcome
-        )
+    check = CHECKS.get(outcome) if run == FIT else None
     return row(f"{theme}: {what}", outcome, run, *words, make=make, check=check, alone=alone)
 
 
@@ -79,23 +76,23 @@ def _exchanged(*pairs: tuple[str, str]) -> object:
     return edit
 
 
+SHORT = rows(np.s_[:100])
+CENTURY = put(time=at(SAMPLES - 1, SAMPLES, lambda v: v + 3e9))
+TURN = put(q1=at(HALF, SAMPLES, lambda v: v + 2 * np.pi))
+WRAPPED = put(q1=lambda v: np.degrees(v) % 360)
+WRAPPED_SAYS = ("q1|joint 1", "rad|degrees|jump|turn")
+SPIKE = put(q1=at(700, 701, lambda v: v + 0.5))
+CLIPPED = put(tau1=lambda v: np.clip(v, -8, 8))
+CONSTANT = put(tau2=np.full(SAMPLES, 3.0))
+NEGATIVE, BOTH_NEGATIVE = put(tau2=np.negative), put(tau1=np.negative, tau2=np.negative)
+EXCHANGED = _exchanged(("tau1", "tau2"))
+
 CLOCK = [
     signal("time in ms", "told", put(time=lambda v: 1000 * v), "second", alone=True),
     signal("since 1970", "works", put(time=lambda v: 1.7e9 + v)),
-    signal(
-        "one row of another century",
-        "told",
-        put(time=at(SAMPLES - 1, SAMPLES, lambda v: v + 3e9)),
-        "gap|pieces",
-    ),
+    signal("one row of another century", "told", CENTURY, "gap|pieces"),
     signal("a second is lost", "told", rows(np.r_[:600, 800:SAMPLES]), "1 gaps"),
-    signal(
-        "a quarter of a second",
-        "ends",
-        rows(np.s_[:100]),
-        "usable|sample|row|essential",
-        alone=True,
-    ),
+    signal("a quarter of a second", "ends", SHORT, "usable|sample|row|essential", alone=True),
     signal("20 Hz of 200", "ends", rows(np.s_[::10]), "Hz"),
     signal("segments that distinguish two runs", "works", put(segment=np.arange(SAMPLES) // HALF)),
 ]
@@ -105,46 +102,20 @@ POSITION = [
     signal("position in degrees", "ends", put(q1=np.degrees, q2=np.degrees), "rad|degrees"),
     signal("sign of joint 1 turned", "told", put(q1=lambda v: -v), "joint 1|q1", "sign"),
     signal("positions exchanged", "told", _exchanged(("q1", "q2")), "exchanged|swapped"),
-    signal(
-        "a turn too much from half way",
-        "ends",
-        put(q1=at(HALF, SAMPLES, lambda v: v + 2 * np.pi)),
-        "q1",
-        "jump|turn|wrap|leap",
-    ),
-    signal(
-        "wrapped in degrees",
-        "ends",
-        put(q1=lambda v: np.degrees(v) % 360),
-        "q1|joint 1",
-        "rad|degrees|jump|turn",
-        alone=True,
-    ),
+    signal("a turn too much from half way", "ends", TURN, "q1", "jump|turn|wrap|leap"),
+    signal("wrapped in degrees", "ends", WRAPPED, *WRAPPED_SAYS, alone=True),
     signal("a position inf", "told", put(q1=at(700, 701, np.inf)), "q1", "without a value"),
 ]
 
 TORQUE = [
-    signal(
-        "one torque constant", "told", put(tau2=np.full(SAMPLES, 3.0)), "joint 2", "never changes"
-    ),
+    signal("one torque constant", "told", CONSTANT, "joint 2", "never changes"),
     signal("torque in N mm", "told", put(tau1=lambda v: 1000 * v), "joint 1|tau1"),
-    signal(
-        "torque of both of the other sign",
-        "told",
-        put(tau1=lambda v: -v, tau2=lambda v: -v),
-        "sign|negative",
-    ),
-    signal("torque of one of the other sign", "told", put(tau2=lambda v: -v), "joint 2", "sign"),
-    signal("torques exchanged", "told", _exchanged(("tau1", "tau2")), "exchanged|swapped"),
+    signal("torque of both of the other sign", "told", BOTH_NEGATIVE, "sign|negative"),
+    signal("torque of one of the other sign", "told", NEGATIVE, "joint 2", "sign"),
+    signal("torques exchanged", "told", EXCHANGED, "exchanged|swapped"),
     signal("torque late by 40 ms", "told", put(tau1=late(8), tau2=late(8)), "late|delay|lag"),
     signal("torque of 1e300", "ends", put(tau1=at(700, 701, 1e300)), "tau1|joint 1"),
-    signal(
-        "torque clipped",
-        "told",
-        put(tau1=lambda v: np.clip(v, -8, 8)),
-        "joint 1|tau1",
-        "saturat|limit",
-    ),
+    signal("torque clipped", "told", CLIPPED, "joint 1|tau1", "saturat|limit"),
 ]
 
 SPEED = [
@@ -153,27 +124,14 @@ SPEED = [
 ]
 
 HELD = [
-    signal(
-        what,
-        "ends",
-        edit,
-        *words,
-        run=command,
-        of="b.csv",
-        theme=command.split()[0],
-        alone=command == DIAGNOSE and what in ("a spike of 0.5 rad", "torque never changes"),
-    )
-    for command in (COMPARE, DIAGNOSE)
-    for what, edit, words in (
-        ("torque of the other sign", put(tau2=lambda v: -v), ("joint 2", "sign")),
-        ("torques exchanged", _exchanged(("tau1", "tau2")), ("exchanged|swapped",)),
-        (
-            "a turn too much",
-            put(q1=at(HALF, SAMPLES, lambda v: v + 2 * np.pi)),
-            ("q1", "jump|turn|wrap|leap"),
-        ),
-        ("a spike of 0.5 rad", put(q1=at(700, 701, lambda v: v + 0.5)), ("q1", "spike|jump|leap")),
-        ("torque never changes", put(tau2=np.full(SAMPLES, 3.0)), ("joint 2",)),
+    signal(what, "ends", edit, *words, run=run, of="b.csv", theme=run.split()[0], alone=alone)
+    for run, only in ((COMPARE, False), (DIAGNOSE, True))
+    for what, edit, words, alone in (
+        ("torque of the other sign", NEGATIVE, ("joint 2", "sign"), False),
+        ("torques exchanged", EXCHANGED, ("exchanged|swapped",), False),
+        ("a turn too much", TURN, ("q1", "jump|turn|wrap|leap"), False),
+        ("a spike of 0.5 rad", SPIKE, ("q1", "spike|jump|leap"), only),
+        ("torque never changes", CONSTANT, ("joint 2",), only),
     )
 ]
 

@@ -4,11 +4,7 @@ import copy
 import json
 from typing import Any
 
-NUMBERS = (
-    *"0 -1 1e308 -1e-308 nan inf -inf 1e400".split(),
-    "9" * 30,
-    *"0.1 2 1_0 0x7f 1e17 3.5".split(),
-)
+NUMBERS = tuple(f"0 -1 1e308 -1e-308 nan inf -inf 1e400 {'9' * 30} 0.1 2 1_0 0x7f 1e17 3.5".split())
 
 
 def edited_bytes(data, made, tokens):
@@ -30,29 +26,9 @@ def edited_bytes(data, made, tokens):
 
 
 VALUES_DRAWN = (
-    None,
-    True,
-    0,
-    -1,
-    3,
-    10**19,
-    0.5,
-    1e308,
-    -0.0,
-    float("nan"),
-    float("inf"),
-    "",
-    *"q1 pi/2 1/0 sin( all L1".split(),
-    "q1 + q2",
-    "x" * 500,
-    "\x00",
-    "../../x",
-    "𝛑",
-    [],
-    {},
-    [[]],
-    [1, [2, [3]]],
-    {"a": {"b": 1}},
+    *(None, True, 0, -1, 3, 10**19, 0.5, 1e308, -0.0, float("nan"), float("inf"), ""),
+    *("q1", "pi/2", "1/0", "sin(", "all", "L1", "q1 + q2", "x" * 500, "\x00", "../../x", "𝛑"),
+    *([], {}, [[]], [1, [2, [3]]], {"a": {"b": 1}}),
 )
 """Some of what may stand anywhere in a structure."""
 
@@ -83,9 +59,8 @@ def _edit(node: Any, key: Any, kind: str, value: Any, others: Any) -> None:
     elif kind == "take out":
         del node[key]
     elif kind == "copy":  # what stands first one level up
-        node[key] = copy.deepcopy(
-            next(iter(others.values() if isinstance(others, dict) else others))
-        )
+        first = next(iter(others.values() if isinstance(others, dict) else others))
+        node[key] = copy.deepcopy(first)
     elif isinstance(node, list):
         node.append(copy.deepcopy(node[key]))
     elif kind == "double":

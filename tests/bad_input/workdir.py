@@ -79,9 +79,7 @@ class Workdir:
 
     def __init__(self, folder: Path, inputs: Inputs) -> None:
         self.folder, self.inputs = folder, inputs
-        self.work, self.home, self.temporary = (
-            folder / name for name in ("work", "home", "temporary")
-        )
+        self.work, self.home, self.temporary = (folder / n for n in ("work", "home", "temporary"))
         for path in (self.work, self.home, self.temporary):
             path.mkdir()
 

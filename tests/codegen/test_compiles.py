@@ -9,6 +9,7 @@ from tests.codegen.fitted_library import fitted_of, robot_module
 from tests.csrc.emitted_folders import CPP, run
 from tests.modules import STRICT, compiler
 from tests.rotation import ROTATING, rotating
+from tests.texts import read_rows
 
 FLAGS = {
     "gcc": [*STRICT, "-Wundef", "-Wcast-align=strict"],
@@ -17,17 +18,10 @@ FLAGS = {
     "clang++": [*CPP[:4], "-Werror", "-x", "c++"],
 }
 FOLDERS = [
-    *(("gcc", "emps"), ("clang", "emps"), ("g++", "emps")),
+    *read_rows("gcc emps; clang emps; g++ emps"),
     *rotating(
-        ("clang++", "orthoglide-2003"),
-        ("gcc", "orthoglide-2003"),
-        ("clang", "slow-arm"),
-        ("gcc", "slow-arm"),
-        ("g++", "slow-arm"),
-        ("clang", "five-bar"),
-        ("gcc", "sr400"),
-        ("gcc", "wrist-coupled"),
-        ("clang", "sr400-tree"),
+        *read_rows("clang++ orthoglide-2003; gcc orthoglide-2003; clang slow-arm; gcc slow-arm"),
+        *read_rows("g++ slow-arm; clang five-bar; gcc sr400; gcc wrist-coupled; clang sr400-tree"),
     ),
     pytest.param("gcc", "evra", marks=ROTATING),
 ]

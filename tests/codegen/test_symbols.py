@@ -73,9 +73,8 @@ def test_a_length_can_be_replaced():
     q, qd, qdd = states(3, 5)
     changed = loaded(with_macro(emitted, "WRIST_GEO_bl1", 0.37))
     derived, known = (loaded(m) for m in (other, emitted))
-    np.testing.assert_allclose(
-        changed.base_regressor(q, qd, qdd), derived.base_regressor(q, qd, qdd)
-    )
+    rows = (each.base_regressor(q, qd, qdd) for each in (changed, derived))
+    np.testing.assert_allclose(*rows)
     chi = np.linspace(-1, 1, len(emitted.spec.standard))
     np.testing.assert_allclose(changed.base_parameters(chi), derived.base_parameters(chi))
     np.testing.assert_allclose(changed.forward_kinematics(q), derived.forward_kinematics(q))
@@ -86,19 +85,8 @@ def torque_with(cc, folder, define) -> subprocess.CompletedProcess:
     """Torques that the C computes where `define` stands for L1, strictly compiled."""
     write_emitted(module("two-link").emitted, folder)
     torque = Path(__file__).with_name("programs") / "torque.c"
-    command = [
-        compiler(cc),
-        *STRICT,
-        "-O0",
-        f"-DTWO_LINK_GEO_L1={define}",
-        "-I",
-        folder,
-        "-o",
-        "torque",
-        torque,
-        "two_link.c",
-        "-lm",
-    ]
+    paths = ["-I", folder, "-o", "torque", torque, "two_link.c", "-lm"]
+    command = [compiler(cc), *STRICT, "-O0", f"-DTWO_LINK_GEO_L1={define}", *paths]
     built = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     if built.returncode:
         return built

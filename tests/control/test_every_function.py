@@ -101,6 +101,7 @@ def expected(o: Oracle, folder: Folder, s: State) -> dict[str, tuple]:
     def of_beta(out):
         return out.astype(float) @ beta
 
+    rate = np.einsum("kfn,k->fn", o.slopes(o.G, u), qd) if o.solved else None
     table = {
         "inverse_dynamics": (tau, exact),
         "regressor": (tau, exact, lambda out: out.astype(float) @ chi),
@@ -127,10 +128,7 @@ def expected(o: Oracle, folder: Folder, s: State) -> dict[str, tuple]:
         "operational_inertia": (o.operational_inertia(u, DAMPING), SOLVED),
         "operational_inverse": (o.operational_inverse(u, DAMPING), SOLVED),
         "coupling": (o.G(u)[0], SOLVED),
-        "coupling_rate": (
-            np.einsum("kfn,k->fn", o.slopes(o.G, u), qd) if o.solved else None,
-            SOLVED,
-        ),
+        "coupling_rate": (rate, SOLVED),
         "close": (u, SOLVED),
         "close_from": (u, SOLVED),
     }

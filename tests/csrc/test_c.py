@@ -43,19 +43,8 @@ void many(int n, const {number} *x, {number} *s, {number} *c)
 """)
         csrc = locate_resources("csrc")
         more = ["-Wdouble-promotion", "-Wfloat-conversion", "-I", csrc / "single"] * single
-        command = [
-            compiler("gcc"),
-            *STRICT,
-            *flags,
-            *more,
-            "-I",
-            csrc / "include",
-            "-shared",
-            "-fPIC",
-            "-o",
-            library,
-            folder / "many.c",
-        ]
+        paths = ["-I", csrc / "include", "-shared", "-fPIC", "-o", library, folder / "many.c"]
+        command = [compiler("gcc"), *STRICT, *flags, *more, *paths]
         subprocess.run([*command, *["-lm"] * (not single)], check=True)  # floats need none
     out = np.zeros((2, len(x)), x.dtype)
     arrays = (array.ctypes.data_as(ctypes.c_void_p) for array in (x, *out))

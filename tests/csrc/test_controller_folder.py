@@ -19,6 +19,7 @@ from modeler.core.errors import BuildError, EmitError, ManifestError
 from modeler.core.manifest import parse_manifest
 from tests.csrc.emitted_folders import CPP, built, make, run
 from tests.modules import STRICT, compiler, loaded
+from tests.rotation import rotating, with_cases
 
 PROGRAMS = Path(__file__).with_name("programs")
 TUNED = "-O3 -fno-tree-slp-vectorize -fno-math-errno -fno-trapping-math -ffp-contract=fast".split()
@@ -57,21 +58,14 @@ def test_what_only_many_samples_need_is_a_library_of_its_own(name, tmp_path):
     assert not [each for each in controller if re.search("batch|tile|observation", each)]
 
 
+BASE = "base_regressor"
 ONLY = [
-    ("demo-arm", "inverse_dynamics,gravity", {"inverse_dynamics", "gravity"}, False),
-    *(
-        pytest.param(*case, marks=pytest.mark.rotating)
-        for case in (
-            ("demo-arm", "forward_derivatives", {"forward_derivatives"}, True),
-            (
-                "demo-arm",
-                "regressor,observation",
-                {"regressor", "base_regressor", "base_regressor_nonzeros"},
-                True,
-            ),
-            ("five-bar", "inverse_dynamics,close", {"inverse_dynamics", "close"}, False),
-            ("five-bar", "observation", {"base_regressor"}, True),
-        )
+    ("demo-arm", "inverse_dynamics,gravity", "inverse_dynamics gravity", False),
+    *rotating(
+        ("demo-arm", "forward_derivatives", "forward_derivatives", True),
+        ("demo-arm", "regressor,observation", f"regressor {BASE} {BASE}_nonzeros", True),
+        ("five-bar", "inverse_dynamics,close", "inverse_dynamics close", False),
+        ("five-bar", "observation", BASE, True),
     ),
 ]
 
@@ -85,8 +79,8 @@ def test_some_functions_alone(name, only, wanted, vectors, tmp_path):
     said = make(tmp_path, "check", *["vectors"] * vectors)
     assert "agree with the stored states" in said and (" 0 fail" in said) == vectors
     names = {f.name for f in spec.every_function}
-    others = {n.removeprefix(f"{spec.prefix}_") for n in names} - wanted
-    assert names >= {f"{spec.prefix}_{role}" for role in wanted}
+    others = {n.removeprefix(f"{spec.prefix}_") for n in names} - {*wanted.split()}
+    assert names >= {f"{spec.prefix}_{role}" for role in wanted.split()}
     assert others <= {"inverse_dynamics", "derivatives", "inertia_matrix", "forward_dynamics"}
     header = "".join(path.read_text() for path in tmp_path.glob("*.h"))
     for each in emitted(name).spec.every_function:
@@ -122,12 +116,8 @@ def test_a_function_that_is_none_is_refused():
 @pytest.mark.parametrize("words", [["gcc", "-std=c99"], ["g++", "-std=c++17", "-x", "c++"]])
 def test_an_array_that_is_too_short_warns(words, tmp_path):
     write_emitted(emitted("demo-arm"), tmp_path)
-    command = [
-        compiler(words[0]),
-        *words[1:],
-        *"-O2 -Wall -Wextra -Werror -c".split(),
-        program("short.c", tmp_path),
-    ]
+    flags = "-O2 -Wall -Wextra -Werror -c".split()
+    command = [compiler(words[0]), *words[1:], *flags, program("short.c", tmp_path)]
     run(*command, "-DSHORTER=0", where=tmp_path)
     if words[0] == "gcc":
         warning = run(*command, "-DSHORTER=1", where=tmp_path, fails=True)
@@ -139,15 +129,8 @@ def test_joints_limits_and_versions_are_constants(words, tmp_path):
     """Beside the robot file and the manifest."""
     robot, spec = derivation("demo-arm").robot, emitted("demo-arm").spec
     write_emitted(emitted("demo-arm"), tmp_path)
-    run(
-        compiler(words[0]),
-        *words[1:],
-        program("constants.c", tmp_path),
-        "demo_arm_joints.c",
-        "-o",
-        "constants",
-        where=tmp_path,
-    )
+    files = (program("constants.c", tmp_path), "demo_arm_joints.c", "-o", "constants")
+    run(compiler(words[0]), *words[1:], *files, where=tmp_path)
     *joints, last = run(tmp_path / "constants", where=tmp_path).splitlines()
     for line, joint in zip(joints, spec.joints, strict=True):
         name, unit, effort, actuated, *limits = line.split("|")
@@ -172,10 +155,7 @@ def test_the_version_of_modeler_is_in_no_signature(monkeypatch):
     assert spec.compute_signature() == now.spec.compute_signature()
 
 
-@pytest.mark.parametrize(
-    ("name", "precision"),
-    [("demo-arm", "double"), pytest.param("five-bar", "single", marks=pytest.mark.rotating)],
-)
+@with_cases("name, precision", ("demo-arm", "double"), *rotating(("five-bar", "single")))
 def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
     """And a number that is wrong in the twelfth digit (of floats: the fifth) is reported."""
     module = emitted(name, precision=precision, vectors=True)
@@ -185,12 +165,8 @@ def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
     assert {int(line.split(",")[1]) for line in lines[:-1]} == set(range(50))
     assert lines[-1] == f"outputs,{len(outputs)}"
     assert f"{len(outputs)} outputs, 0 fail" in make(tmp_path, "vectors")
-    digits = [
-        len(re.sub(r"e.*|\D", "", x).lstrip("0"))
-        for k in outputs[:40]
-        for x in lines[k].split(",")[2:]
-        if x != "0"
-    ]
+    texts = [x for k in outputs[:40] for x in lines[k].split(",")[2:] if x != "0"]
+    digits = [len(re.sub(r"e.*|\D", "", x).lstrip("0")) for x in texts]
     assert min(digits) >= 50
     at = next(k for k in outputs[60:] if "inverse_dynamics" in lines[k])
     head, state, first, *rest = lines[at].split(",")
@@ -213,12 +189,8 @@ def test_a_port_qualifies_itself_by_vectors(name, precision, tmp_path):
 @pytest.mark.parametrize("cc", ["g++", "clang++"])
 def test_the_header_for_cpp_returns_what_the_c_writes(cc, tmp_path):
     built(emitted("demo-arm"), tmp_path, "all", "batch")
-    command = [
-        compiler(cc),
-        *CPP,
-        program("wrapped.cpp", tmp_path),
-        *"libdemo_arm_model.a -lm -o wrapped".split(),
-    ]
+    linked = "libdemo_arm_model.a -lm -o wrapped".split()
+    command = [compiler(cc), *CPP, program("wrapped.cpp", tmp_path), *linked]
     run(*command, "-DSPOIL=(void)0", where=tmp_path)
     assert run(tmp_path / "wrapped", where=tmp_path) == "0"
     ignored = "arm::forward_dynamics(q,qd,g,beta,tau)"
@@ -231,13 +203,8 @@ def test_the_header_for_cpp_returns_what_the_c_writes(cc, tmp_path):
 def test_the_header_for_cpp_has_the_state_of_loops(tmp_path):
     write_emitted(emitted("five-bar", "inverse_dynamics", "single"), tmp_path)
     make(tmp_path)
-    run(
-        compiler("g++"),
-        *CPP,
-        program("state.cpp", tmp_path),
-        *"libfive_bar_model.a -lm -o state".split(),
-        where=tmp_path,
-    )
+    files = (program("state.cpp", tmp_path), *"libfive_bar_model.a -lm -o state".split())
+    run(compiler("g++"), *CPP, *files, where=tmp_path)
     run(tmp_path / "state", where=tmp_path)
 
 
@@ -260,14 +227,8 @@ def test_the_stack_of_a_call_is_a_bound_of_what_it_uses(tmp_path):
     values, module = costs("five-bar", BOTH), emitted("five-bar", BOTH)
     write_emitted(module, tmp_path)
     sources = [n for n in module.spec.controller_sources if n.endswith(".c")]
-    run(
-        "gcc",
-        *TUNED,
-        program("painted.c", tmp_path),
-        *sources,
-        *"-lm -lpthread -o painted".split(),
-        where=tmp_path,
-    )
+    files = (program("painted.c", tmp_path), *sources, *"-lm -lpthread -o painted".split())
+    run("gcc", *TUNED, *files, where=tmp_path)
     nothing, *both = map(int, run(tmp_path / "painted", where=tmp_path).split())
     for painted, role in zip(both, BOTH.split(","), strict=True):
         stack = values[f"five_bar_{role}"]["stack"]
@@ -279,16 +240,8 @@ def test_the_stack_of_a_function_in_several_versions_is_that_of_the_largest(tmp_
     module, rows = emitted("two-link", BOTH), costs("two-link", BOTH)
     write_emitted(module, tmp_path)
     sources = [n for n in module.spec.controller_sources if re.match(r"two_link.*\.c", n)]
-    run(
-        "gcc",
-        "-std=c99",
-        *TUNED,
-        "-fno-asynchronous-unwind-tables",
-        "-fstack-usage",
-        "-c",
-        *sources,
-        where=tmp_path,
-    )
+    flags = "-fno-asynchronous-unwind-tables -fstack-usage -c".split()
+    run("gcc", "-std=c99", *TUNED, *flags, *sources, where=tmp_path)
     frames: dict[str, int] = {}
     for line in "".join(path.read_text() for path in tmp_path.glob("*.su")).splitlines():
         place, size, _ = line.split("\t")

@@ -17,41 +17,14 @@ SLIDE = JointSpec("2", "prismatic", "m", "N", True, None)
 JOINTS = (TURN, SLIDE)
 
 FACTORS = {
-    "deg": known.degree,
-    "°": known.degree,
-    "rev": 2 * known.pi,
-    "rpm": 2 * known.pi / known.minute,
-    "deg/s": known.degree,
-    "deg/s^2": known.degree,
-    "deg/s²": known.degree,
-    "mrad": 1e-3,
-    "m": 1.0,
-    "mm": 1e-3,
-    "um": known.micro,
-    "in": known.inch,
-    "ft/min": known.foot / 60,
-    "s": 1.0,
-    "ms": 1e-3,
-    "us": 1e-6,
-    "µs": 1e-6,
-    "ns": 1e-9,
-    "min": 60.0,
-    "A": 1.0,
-    "mA": 1e-3,
-    "N m": 1.0,
-    "Nm": 1.0,
-    "N*m": 1.0,
-    "N·m": 1.0,
-    "N.m": 1.0,
-    "mN m": 1e-3,
-    "kN": 1e3,
-    "kgf cm": known.kgf * 0.01,
-    "lbf in": known.lbf * known.inch,
-    "ozf in": known.lbf / 16 * known.inch,
-    "rev/8192": 2 * known.pi / 8192,
-    "0.1 deg": known.degree / 10,
-    "rad/s": 1.0,
-    "%": 0.01,
+    **{"deg": known.degree, "°": known.degree, "rev": 2 * known.pi, "mrad": 1e-3, "rad/s": 1.0},
+    **{"rpm": 2 * known.pi / known.minute, "rev/8192": 2 * known.pi / 8192, "%": 0.01},
+    **{"deg/s": known.degree, "deg/s^2": known.degree, "deg/s²": known.degree},
+    **{"0.1 deg": known.degree / 10, "m": 1.0, "mm": 1e-3, "um": known.micro, "in": known.inch},
+    **{"ft/min": known.foot / 60, "s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9},
+    **{"min": 60.0, "A": 1.0, "mA": 1e-3, "N m": 1.0, "Nm": 1.0, "N*m": 1.0, "N·m": 1.0},
+    **{"N.m": 1.0, "mN m": 1e-3, "kN": 1e3, "lbf in": known.lbf * known.inch},
+    **{"kgf cm": known.kgf * 0.01, "ozf in": known.lbf / 16 * known.inch},
 }
 
 
@@ -78,18 +51,12 @@ def table_of(tmp_path, mapping, names=("t", "a", "b", "c", "d"), **columns):
     return LogTable(path, read, JOINTS), values
 
 
+TURNED = {"column": "a", "unit": "rev/100", "sign": -1, "offset": 25}
+SCALED = {"column": "a", "unit": "rpm", "scale": 0.01}
 CONVERTED = [
     ({"q1": "a [deg]"}, "q1", lambda v: np.deg2rad(v["a"])),
-    (
-        {"q1": {"column": "a", "unit": "rev/100", "sign": -1, "offset": 25}},
-        "q1",
-        lambda v: (25.0 - v["a"]) * 2 * np.pi / 100,
-    ),
-    (
-        {"qd1": {"column": "a", "unit": "rpm", "scale": 0.01}},
-        "qd1",
-        lambda v: v["a"] * 0.01 * 2 * np.pi / 60,
-    ),
+    ({"q1": TURNED}, "q1", lambda v: (25.0 - v["a"]) * 2 * np.pi / 100),
+    ({"qd1": SCALED}, "qd1", lambda v: v["a"] * 0.01 * 2 * np.pi / 60),
     ({"q2": "b [mm]"}, "q2", lambda v: v["b"] / 1000),
     ({"tau1": {"column": "a", "unit": "kg cm"}}, "tau1", lambda v: v["a"] * 9.80665 / 100),
     ({"tau1": {"column": "a", "unit": "lb in"}}, "tau1", lambda v: v["a"] * known.lbf * known.inch),

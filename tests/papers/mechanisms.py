@@ -190,9 +190,8 @@ POINTS = np.random.default_rng(3).normal(0, 1, (12, 3))
 
 def parameters_of(r):
     x, y, z = r
-    return np.array(
-        [y * y + z * z, -x * y, -x * z, x * x + z * z, -y * z, x * x + y * y, x, y, z, 1.0]
-    )
+    second = (y * y + z * z, -x * y, -x * z, x * x + z * z, -y * z, x * x + y * y)
+    return np.array([*second, x, y, z, 1.0])
 
 
 POINTS_AS_PARAMETERS = np.array([parameters_of(r) for r in POINTS]).T

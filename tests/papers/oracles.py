@@ -285,17 +285,9 @@ def body(paper, line):
     xx, xy, xz, yy, yz, zz, *first, mass = m.POINTS_AS_PARAMETERS @ masses
     axes = m.about_z(0.3) @ m.about_x(0.7)
     letters = {
-        "omegak^T": w,
-        "omegak": w,
+        **{"omegak^T": w, "omegak": w, "Mk": mass, "Vk^T": v, "Vk": v, "MSk^T": first, "^0g^T": g},
+        **{"^0Pk": place, "^0Ak": axes, "^kSk": np.array(first) / mass},
         "Jk": [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
-        "Mk": mass,
-        "Vk^T": v,
-        "Vk": v,
-        "MSk^T": first,
-        "^0g^T": g,
-        "^0Pk": place,
-        "^0Ak": axes,
-        "^kSk": np.array(first) / mass,
     }
     height = -masses @ np.array([g @ (place + axes @ r) for r in m.POINTS])
     wanted = masses @ m.point_energies(w, v) / 2 if line.expected[0] == "E" else height

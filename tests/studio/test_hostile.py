@@ -23,6 +23,7 @@ from modeler.studio.places import Roots
 from modeler.studio.project import Project, ProjectLog, Workspace, format_project, parse_project
 from modeler.studio.tasks import FIELDS, LogPart, Step, Task, TimeRange, Verb, build_command_line
 from tests.coroutines import run_coroutine
+from tests.rotation import with_cases
 from tests.studio.hubs import hub_of, run_tasks
 
 # What a project of somebody else may do, once it is accepted: these commands, with these options.
@@ -45,34 +46,17 @@ ALLOWED = {
     "fleet": "--name --map",
 }
 WORDS = {
-    "mapping": "q1=a:deg",
-    "limit": "1=-1,1,2,3",
-    "between": "a@1,b@2",
-    "effects": "viscous",
-    "without": "spring@1",
-    "effect": "spring",
-    "joint": "2",
-    "method": "robust",
-    "derivatives": "log",
-    "precision": "single",
-    "to": "urdf",
-    "like": "arm.urdf",
-    "joints": "RRR",
-    "template": "serial",
-    "convention": "craig",
+    **{"mapping": "q1=a:deg", "limit": "1=-1,1,2,3", "between": "a@1,b@2", "effects": "viscous"},
+    **{"without": "spring@1", "effect": "spring", "joint": "2", "method": "robust"},
+    **{"derivatives": "log", "precision": "single", "to": "urdf", "like": "arm.urdf"},
+    **{"joints": "RRR", "template": "serial", "convention": "craig"},
     "name": "{machine}-{period}.csv",
 }
 HARM = (
     *"--run-embedded-c -x --out=../x --report - ../../x a/../../x /etc/passwd".split(),
-    "a\nb",
-    "\x00",
-    "--",
-    "logs/../../a.csv",
-    "..",
-    " --run-embedded-c",
-    "\u2212-x",
-    "a\\..\\b",
+    *("a\nb", "\x00", "--", "logs/../../a.csv", "..", " --run-embedded-c", "\u2212-x", "a\\..\\b"),
 )
+PUT = (b"", b'"', b"-", b"\xff", b"[", b"1e999", b"--out", b"\n", b"{", b"../")
 MAY_BE = {"file", "like", "logs", "held", "mapping", "limit", "between", "name", "without"}
 
 
@@ -91,6 +75,10 @@ def task_of(verb: Verb, **harm: object) -> Task:
     return Task(verb, **{**local, **harm})  # type: ignore[arg-type]
 
 
+PLACES = (
+    *"robot.toml robot.draft.toml models robots/1.toml taken/3_c logs originals".split(),
+    "taken/4_c/deep/model.c",
+)
 STEPS = tuple(
     Step(n, min(n - 1, 1), task_of(verb))
     for n, verb in enumerate(("fit", "add", "compare", "diagnose"), start=1)
@@ -181,12 +169,8 @@ def test_changed_c_of_a_model_is_never_run(axis_project: Path, tmp_path: Path) -
     mark.unlink()
     Workspace(folder).save(Project("robot.toml", 1, steps=(Step(1, 0, Task("fit", log)),)))
     with hub_of(folder) as hub:
-        run_tasks(
-            hub,
-            lambda _: Task("compare", log),
-            lambda _: Task("page", step=2),
-            lambda _: Task("generate"),
-        )
+        tasks = (Task("compare", log), Task("page", step=2), Task("generate"))
+        run_tasks(hub, *(lambda _, task=task: task for task in tasks))
         run_coroutine(Studio(hub, "fails").ask_viewer("verdict", "models/1.json", ["logs/a.csv"]))
         assert [step.verb for step in hub.project.steps] == ["fit", "compare", "page", "generate"]
     assert not mark.exists()
@@ -223,9 +207,7 @@ def test_thousands_of_mutated_projects_end_in_a_line(tmp_path: Path) -> None:
         content = bytearray(sound)
         for _ in range(draw.randrange(1, 4)):
             at = draw.randrange(len(content))
-            content[at : at + draw.choice((0, 1, 9))] = draw.choice(
-                (b"", b'"', b"-", b"\xff", b"[", b"1e999", b"--out", b"\n", b"{", b"../")
-            )
+            content[at : at + draw.choice((0, 1, 9))] = draw.choice(PUT)
         place.write_bytes(content)
         try:
             project = Workspace(tmp_path).project
@@ -262,10 +244,8 @@ def test_logs_outside_are_neither_run_nor_drawn(tmp_path: Path) -> None:
         view = Studio(hub, "data").ask_viewer
         for file in ("logs/a.csv", f"{tmp_path}/data/a.csv"):
             assert await error_of(view("log_facts", str(folder / file))) == ""
-        for file in (
-            f"{tmp_path}/other/a.csv",
-            *"linked/a.csv logs/link.csv logs/many logs/run".split(),
-        ):
+        linked = "linked/a.csv logs/link.csv logs/many logs/run".split()
+        for file in (f"{tmp_path}/other/a.csv", *linked):
             for asked in (hub.run(Task("log", file=file)), view("log_facts", str(folder / file))):
                 line = await error_of(asked)
                 assert "outside the folders that this studio may use; start it with" in line
@@ -274,22 +254,14 @@ def test_logs_outside_are_neither_run_nor_drawn(tmp_path: Path) -> None:
         run_coroutine(ask_all(hub))
 
 
-@pytest.mark.parametrize(
-    "name",
-    """
-        robot.toml robot.draft.toml models robots/1.toml taken/3_c logs originals
-        taken/4_c/deep/model.c
-    """.split(),
-)
+@with_cases("name", *PLACES)
 def test_a_project_whose_places_are_links_is_not_opened(tmp_path: Path, name: str) -> None:
     """They would be written over: a robot that is edited ended in somebody's profile."""
     folder = tmp_path / "project"
     (folder / name).parent.mkdir(parents=True)
     (folder / name).symlink_to(tmp_path / ".profile")
-    with (
-        pytest.raises(DataError, match=r"outside the folders that this studio may use"),
-        hub_of(folder),
-    ):
+    outside = r"outside the folders that this studio may use"
+    with pytest.raises(DataError, match=outside), hub_of(folder):
         pass
     with hub_of(folder, (tmp_path,)):  # --allow
         pass
@@ -317,9 +289,8 @@ def test_a_notebook_and_a_script_hold_values_as_values(tmp_path: Path) -> None:
         Task("add", logs, logs, effect="spring"),
     )
     steps = tuple(Step(k, min(k - 1, 1), task) for k, task in enumerate(tasks, start=1))
-    project = Project(
-        "robot.toml", 3, steps=steps, logs=(ProjectLog("logs/a.csv", (TimeRange(),)),)
-    )
+    log = ProjectLog("logs/a.csv", (TimeRange(),))
+    project = Project("robot.toml", 3, steps=steps, logs=(log,))
     local = build_recipe(project, tmp_path / evil, {})
     for cell in json.loads(format_notebook(local))["cells"]:
         if cell["cell_type"] == "code":
@@ -334,11 +305,8 @@ def test_a_notebook_and_a_script_hold_values_as_values(tmp_path: Path) -> None:
 
 # Parts of an attribute that are no names of anybody's.
 OURS = {
-    *"kind endings named NAME address".split(),
-    "'-alone' * alone",
-    "number",
-    "'true' if here else 'false'",
-    "'pause' if event.args else 'play_arrow'",
+    *("kind", "endings", "named", "NAME", "address", "'-alone' * alone", "number"),
+    *("'true' if here else 'false'", "'pause' if event.args else 'play_arrow'"),
 }
 
 

@@ -11,6 +11,7 @@ from modeler.formulas.solve import derive_values, solve
 from tests.rotation import rotating, with_cases
 from tests.terms.cases import model_of
 from tests.terms.physical_cases import SEVEN, data_of, example, random_letters, slopes_of, system_of
+from tests.texts import read_rows
 
 
 def covariance_of(data: np.ndarray, rng: np.random.Generator, share: float) -> np.ndarray:
@@ -221,32 +222,12 @@ def test_cad_files_as_they_are_written(tmp_path):
 
 
 # Counted by another program: exact ranks modulo 2147483647 and 2147483629 at two points.
-CLASSES = {
-    (4, 2, 2): 44,
-    (3, 3, 2): 286,
-    (2, 4, 2): 605,
-    (1, 5, 2): 462,
-    (0, 6, 2): 88,
-    (4, 1, 3): 166,
-    (3, 2, 3): 1441,
-    (2, 3, 3): 3877,
-    (1, 4, 3): 3801,
-    (0, 5, 3): 1084,
-    (4, 0, 4): 129,
-    (3, 1, 4): 1992,
-    (2, 2, 4): 7538,
-    (1, 3, 4): 9618,
-    (0, 4, 4): 3587,
-    (3, 0, 5): 765,
-    (2, 1, 5): 5251,
-    (1, 2, 5): 9426,
-    (0, 3, 5): 4559,
-    (2, 0, 6): 1043,
-    (1, 1, 6): 3344,
-    (0, 2, 6): 2203,
-    (1, 0, 7): 285,
-    (0, 1, 7): 285,
-}
+WRITTEN = read_rows(
+    """4 2 2 44; 3 3 2 286; 2 4 2 605; 1 5 2 462; 0 6 2 88; 4 1 3 166; 3 2 3 1441; 2 3 3 3877;
+    1 4 3 3801; 0 5 3 1084; 4 0 4 129; 3 1 4 1992; 2 2 4 7538; 1 3 4 9618; 0 4 4 3587; 3 0 5 765;
+    2 1 5 5251; 1 2 5 9426; 0 3 5 4559; 2 0 6 1043; 1 1 6 3344; 0 2 6 2203; 1 0 7 285; 0 1 7 285"""
+)
+CLASSES = {row[:-1]: row[-1] for row in WRITTEN}
 
 
 def jacobian(system) -> np.ndarray:
