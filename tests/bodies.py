@@ -9,16 +9,8 @@ def ten_of_points(masses: np.ndarray, places: np.ndarray) -> dict[str, float]:
     """The ten parameters as sums over point masses (Khalil and Dombre)."""
     x, y, z = places.T
     sums = {
-        "XX": y * y + z * z,
-        "XY": -x * y,
-        "XZ": -x * z,
-        "YY": x * x + z * z,
-        "YZ": -y * z,
-        "ZZ": x * x + y * y,
-        "MX": x,
-        "MY": y,
-        "MZ": z,
-        "M": np.ones(len(x)),
+        **{"XX": y * y + z * z, "XY": -x * y, "XZ": -x * z, "YY": x * x + z * z, "YZ": -y * z},
+        **{"ZZ": x * x + y * y, "MX": x, "MY": y, "MZ": z, "M": np.ones(len(x))},
     }
     return {prefix: float(masses @ values) for prefix, values in sums.items()}
 

@@ -40,9 +40,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         metavar="RUNS",
         help="run each case that repeats what others show once in so many runs",
     )
-    parser.addoption(
-        "--day", type=int, default=today(), help="where no run is recorded yet; default: today"
-    )
+    parser.addoption("--day", type=int, default=today(), help="without a record; default: today")
 
 
 def pytest_configure(config: pytest.Config) -> None:

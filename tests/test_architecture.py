@@ -83,9 +83,7 @@ def test_what_is_imported_is_what_is_declared() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     declared = _names(project["dependencies"])
     groups = project["optional-dependencies"]
-    extras = {
-        name for group, lines in groups.items() if group not in OURS for name in _names(lines)
-    }
+    extras = {name for group, rows in groups.items() if group not in OURS for name in _names(rows)}
     imported = imported_packages(PACKAGE)
     assert declared <= imported <= declared | extras
     assert extras <= imported

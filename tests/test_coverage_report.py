@@ -11,12 +11,8 @@ def summary(lines: int, run: int, branches: int = 0, taken: int = 0) -> dict[str
 
 
 def test_packages_and_least_covered_functions() -> None:
-    functions = {
-        "none": summary(4, 0),
-        "long": summary(9, 0),
-        "short": summary(1, 0),
-        "": summary(50, 0),
-    }
+    sizes = {"none": 4, "long": 9, "short": 1, "": 50}
+    functions = {name: summary(lines, 0) for name, lines in sizes.items()}
     files = {
         "modeler/core/a.py": {**summary(20, 10, 8, 2), "functions": functions},
         "modeler/core/b.py": {**summary(20, 20), "functions": {"all": summary(20, 20)}},

@@ -28,9 +28,8 @@ from modeler.simulation.physics import HIDDEN
 from tests.rotation import ROTATING, with_cases
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = sorted(
-    p.relative_to(ROOT).as_posix() for p in [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
-)
+PAGES = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
+PAGES = sorted(page.relative_to(ROOT).as_posix() for page in PAGES)
 RUN = [
     page
     for page in PAGES
@@ -163,9 +162,7 @@ class Reader:
         name_line = named or saved
         name = name_line[1] if name_line else "snippet.c"
         suffixes = (".urdf", ".xml") if suffix == ".xml" else suffix
-        assert name.endswith(suffixes) and (name_line or suffix == ".c"), (
-            f"{where}: how is it called?"
-        )
+        assert name.endswith(suffixes) and (name_line or suffix == ".c"), f"{where}: its name?"
         Path(name).write_text("\n".join(block.lines) + "\n", encoding="utf-8")
         if suffix == ".c" and not any("main(" in line for line in block.lines):
             folders = sorted({f"-I{path.parent}" for path in Path().glob("*/*.h")})
@@ -346,9 +343,7 @@ def test_the_table_of_effects_on_loops_is_true():
     assert set(listed["not simulated"]) == unsimulated
 
 
-@pytest.mark.parametrize(
-    "name", ["q1", "qdd1", "M1", "ZZ1", "Fv1", "pi", "tanh", "double", "lambda"]
-)
+@with_cases("name", "q1", "qdd1", "M1", "ZZ1", "Fv1", "pi", "tanh", "double", "lambda")
 def test_reserved_names_are_refused(name):
     text = read_builtin_robot("two-link").replace("[symbols]", f"[symbols]\n{name} = 1.0")
     with pytest.raises(RobotError, match=re.escape(f'"{name}"')):

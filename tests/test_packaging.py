@@ -77,9 +77,7 @@ def test_what_messages_tell_to_install_there_is(settings: dict) -> None:
     named = {name for text in [*sources, *pages] for name in _EXTRA.findall(text)}
     named |= {name for text in sources for name in re.findall(r"suggest_install\(['\"](\w+)", text)}
     assert {"gpu", "dask", "notebook"} <= named <= extras
-    readers = {
-        n for text in sources for n in re.findall(r'make_package_error\([^)]*"([\w-]+)"\)', text)
-    }
+    readers = {n for t in sources for n in re.findall(r'make_package_error\([^)]*"([\w-]+)"\)', t)}
     assert readers == set(READERS) and set(READERS.values()) <= extras
     for package, extra in READERS.items():
         wanted = settings["project"]["optional-dependencies"][extra]
@@ -295,9 +293,7 @@ def make(tmp_path: Path):
         shutil.copy(ROOT / name, folder)
 
     def run(*arguments: str) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            ["make", *arguments], cwd=folder, capture_output=True, text=True, check=False
-        )
+        return subprocess.run(["make", *arguments], cwd=folder, capture_output=True, text=True)
 
     return run
 

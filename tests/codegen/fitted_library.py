@@ -50,9 +50,8 @@ def fitted_of(spec: manifest.ModuleSpec, seed: int = 4) -> manifest.FittedSpec:
         value = float(random.normal())
         value = abs(value) if base.column_of.startswith(("Fs", "Fv")) else value
         parameters.append(manifest.FittedParameter(base.name, base.unit, value, 0.1))
-    return manifest.FittedSpec(
-        "weighted", True, "usable: yes", (), ("Values of a test.",), tuple(parameters)
-    )
+    notes = ("Values of a test.",)
+    return manifest.FittedSpec("weighted", True, "usable: yes", (), notes, tuple(parameters))
 
 
 def with_values(name: str, fitted: manifest.FittedSpec | None = None) -> manifest.EmittedModule:

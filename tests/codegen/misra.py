@@ -54,11 +54,8 @@ def violations(folder: Path, name: str, *words: str) -> list[str]:
     text = re.sub(r"^#pragma.*$", "", done.stdout, flags=re.M)
     text = re.sub(r"\b(__asm__|asm)\b[^;]*;", ";", text)
     tree = c_parser.CParser().parse(text, name)
-    return [
-        f"{rule} {Path(at.file).name}:{at.line}"
-        for rule, at in _broken(tree)
-        if "fake" not in at.file
-    ]
+    broken = [(rule, at) for rule, at in _broken(tree) if "fake" not in at.file]
+    return [f"{rule} {Path(at.file).name}:{at.line}" for rule, at in broken]
 
 
 def _broken(node: c_ast.Node, stands: bool = False) -> Iterator[tuple[str, object]]:

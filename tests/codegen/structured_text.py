@@ -107,9 +107,8 @@ class Program:
         inputs = [f"{n}={unit.initial[n]!r}" if n in unit.initial else n for n in names]
         inputs.sort(key=lambda word: "=" in word)
         unit.lines.append(f"def {unit.name}({', '.join(inputs)}):")
-        unit.lines += [
-            f"    {n} = {v!r}" for n, v in unit.initial.items() if unit.kinds[n] == "constant"
-        ]
+        constants = [x for x in unit.initial.items() if unit.kinds[x[0]] == "constant"]
+        unit.lines += [f"    {n} = {v!r}" for n, v in constants]
         self._statements(unit, "    ", f"end_{kind}")
         self._take(f"end_{kind}")
         if kind == "function":  # its name is its value; in Python that would be itself

@@ -33,9 +33,8 @@ def evaluated(name: str, entries, shape) -> np.ndarray:
     """Graph expressions in numpy, (samples, *shape), for `states`; {index: expression}."""
     model = module(name).model
     values: dict = dict(model.geometry.values) | {"pi": np.pi}
-    for kind, array in zip(
-        ("q", "qd", "qdd"), states(model.geometry.joint_count, SAMPLES), strict=True
-    ):
+    motions = states(model.geometry.joint_count, SAMPLES)
+    for kind, array in zip(("q", "qd", "qdd"), motions, strict=True):
         values |= {f"{kind}[{i}]": array[:, i] for i in range(array.shape[1])}
     result = np.zeros((SAMPLES, *shape))
     columns = model.graph.evaluate_outputs(list(entries.values()), values)
@@ -195,6 +194,5 @@ def test_the_header_says_which_effects_friction_holds_that_act_at_rest():
 
 
 def test_letters_of_comments_are_written_in_ascii():
-    assert (
-        format_comment("Prüfstand é Größe u\u0308 – 5° 工") == "Pruefstand e Groesse ue - 5 deg ?"
-    )
+    text = "Prüfstand é Größe u\u0308 – 5° 工"
+    assert format_comment(text) == "Pruefstand e Groesse ue - 5 deg ?"

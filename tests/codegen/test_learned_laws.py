@@ -126,9 +126,7 @@ def test_what_is_not_finite_gives_no_number_in_any_lane(precision):
 )
 def test_every_instruction_set_and_compiler_gives_the_same(cc, flags, tmp_path):
     names = [name for name in with_control().spec.sources if name.startswith("demo_arm")]
-    units = [
-        name for name in names if name[-2:] == ".c" and not re.search("base_regressor|batch", name)
-    ]
+    units = [n for n in names if n[-2:] == ".c" and not re.search("base_regressor|batch", n)]
     assert compiled_check(with_control(), tmp_path, cc, *flags, units=units * (flags == ["-O0"]))
 
 

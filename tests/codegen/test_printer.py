@@ -16,9 +16,7 @@ from tests.modules import compiler
 
 def run_in_c(outputs: list[Expr], values: dict[str, float], tmp_path, target=DOUBLE) -> np.ndarray:
     places = {name: f"in[{i}]" for i, name in enumerate(values)}
-    block = make_block(
-        [(f"out[{i}]", expr) for i, expr in enumerate(outputs)], places, target=target
-    )
+    block = make_block([(f"out[{i}]", e) for i, e in enumerate(outputs)], places, target=target)
     lines = "\n".join((*block.constants, *block.calls, *block.body))
     number, kind = ("float", np.float32) if target is SINGLE else ("double", np.float64)
     source, library = tmp_path / "f.c", tmp_path / "f.so"

@@ -75,9 +75,8 @@ def test_the_signature_covers_every_letter_of_the_c(name):
     made = module(name).emitted
     texts = sources(made)
     assert made.spec.code == digest_code(texts)
-    assert (
-        sum(made.spec.compute_signature() in made.files[n] for n in made.spec.sources) == 2
-    )  # and header
+    signature = made.spec.compute_signature()
+    assert sum(signature in made.files[n] for n in made.spec.sources) == 2  # and header
     for file, text in texts.items():
         changed = digest_code({**texts, file: text.replace("0", "1", 1) + " "})
         other = dataclasses.replace(made.spec, code=changed)
@@ -134,9 +133,8 @@ def test_homes_are_the_doubles_next_to_closed_postures():
     other = mp.expj(q12) * l3 + l0
     way = other - one
     along = (l2**2 - l4**2 + abs(way) ** 2) / (2 * abs(way))
-    tips = [
-        one + way / abs(way) * mp.mpc(along, side * mp.sqrt(l2**2 - along**2)) for side in (1, -1)
-    ]
+    height = mp.sqrt(l2**2 - along**2)
+    tips = [one + way / abs(way) * mp.mpc(along, side * height) for side in (1, -1)]
     tip = max(tips, key=lambda z: z.imag)
     assert home["21"] == float(mp.arg((tip - one) / mp.expj(q11)))
     assert home["22"] == float(mp.arg((tip - other) / mp.expj(q12)))

@@ -20,9 +20,8 @@ ROLES = ("inverse_dynamics", "inertia_matrix", "gravity", "coriolis", "friction"
 def made_of(name: str, fitted: bool):
     made = robot_module(name)
     values = fitted_of(made.emitted.spec, seed=int(np.random.default_rng().integers(1000)))
-    return emit(
-        made.model, made.base, values if fitted else None, control=Control(structured_text=True)
-    )
+    control = Control(structured_text=True)
+    return emit(made.model, made.base, values if fitted else None, control=control)
 
 
 def distance(program: Program, functions: Functions, role: str, state, **widths: float) -> float:
@@ -87,9 +86,8 @@ def test_another_parser_of_the_standard_reads_it(name: str) -> None:
 
 
 def test_the_reader_refuses_what_is_not_of_the_standard() -> None:
-    head = (
-        "FUNCTION_BLOCK f\nVAR_IN_OUT\n q : ARRAY [0..1] OF LREAL;\nEND_VAR\n{}\nEND_FUNCTION_BLOCK"
-    )
+    head = "FUNCTION_BLOCK f\nVAR_IN_OUT\n q : ARRAY [0..1] OF LREAL;\nEND_VAR\n{}\n"
+    head += "END_FUNCTION_BLOCK"
     Program(head.format("q[1] := q[0];"))
     for wrong in (
         "q[2] := 1.0;",

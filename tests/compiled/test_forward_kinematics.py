@@ -28,9 +28,8 @@ def expected(robot, q):
 def test_poses_are_the_product_of_elementary_motions(name):
     robot = read_robot(name)
     q = states(len(robot.moving_joints), 8)[0]
-    np.testing.assert_allclose(
-        plain(name).forward_kinematics(q), expected(robot, q), rtol=0, atol=1e-13
-    )
+    poses = plain(name).forward_kinematics(q)
+    np.testing.assert_allclose(poses, expected(robot, q), rtol=0, atol=1e-13)
 
 
 @pytest.mark.digits

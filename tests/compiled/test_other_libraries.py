@@ -20,9 +20,8 @@ def test_standard_regressor_and_base_torque(name):
     rng = np.random.default_rng(21)
     q, qd, qdd = rng.uniform(-1.5, 1.5, (3, 20, len(robot.moving_joints)))
     theirs = pinocchio_regressor(robot, q, qd, qdd)
-    np.testing.assert_allclose(
-        model.regressor(q, qd, qdd), theirs, rtol=0, atol=1e-12 * np.abs(theirs).max()
-    )
+    bound = 1e-12 * np.abs(theirs).max()
+    np.testing.assert_allclose(model.regressor(q, qd, qdd), theirs, rtol=0, atol=bound)
     chi = rng.normal(size=theirs.shape[2])
     tau = model.inverse_dynamics(q, qd, qdd, model.base_parameters(chi))
     expected = theirs @ chi

@@ -73,9 +73,8 @@ def test_a_library_of_it_has_all_that_is_called(cl, robot) -> None:
     W = model.observation(q, qd, qdd)
     assert np.isfinite(W).all() and np.linalg.norm(W) > 1
     beta = np.random.default_rng(3).normal(size=W.shape[1])
-    np.testing.assert_allclose(
-        model.inverse_dynamics(q, qd, qdd, beta).ravel(), W @ beta, rtol=1e-9, atol=1e-9
-    )
+    tau = model.inverse_dynamics(q, qd, qdd, beta)
+    np.testing.assert_allclose(tau.ravel(), W @ beta, rtol=1e-9, atol=1e-9)
     assert "/nologo /std:c11 /utf-8 /O2 /LD" in out.read_text().splitlines()
 
 

@@ -117,9 +117,8 @@ def test_far_angles_and_values_that_are_no_numbers_stay_in_their_lane(monkeypatc
             others = np.arange(16) != lane
             np.testing.assert_array_equal(got[others], clean[others])
             size = np.nanmax(np.where(np.isfinite(expected[lane]), np.abs(expected[lane]), 1.0))
-            np.testing.assert_allclose(
-                got[lane], expected[lane], rtol=1e-12, atol=BOUND * size, equal_nan=True
-            )
+            bounds = {"rtol": 1e-12, "atol": BOUND * size}
+            np.testing.assert_allclose(got[lane], expected[lane], **bounds, equal_nan=True)
 
 
 def compiled_check(emitted, folder, *words, units=()):
@@ -193,10 +192,8 @@ def test_loops_closed_side_by_side_are_those_closed_one_by_one(name, plain):
         q[120:] += 0.01
         qd, qdd = rng.normal(0, 2, (2, *q.shape))
         q[140, 0] = qd[150, 1] = np.nan
-        shape, items, value = (
-            (samples * len(home), len(model.spec.base)),
-            *np.zeros((2, samples), "i"),
-        )
+        shape = (samples * len(home), len(model.spec.base))
+        items, value = np.zeros((2, samples), "i")
         W, order = np.empty(shape), np.empty(shape, order="F")
         model._library.fill_observation([q, qd, qdd], W, items)
         for out in (np.empty(shape), order):
@@ -214,9 +211,8 @@ def test_the_observation_matrix_of_loops_uses_tiles(tiled):
     home = home_of(model)
     q = home + 1e-3 * np.arange(40)[:, None]
     W = model.observation(q, 0 * q, 1 + 0 * q)
-    np.testing.assert_allclose(
-        W, model.base_regressor(q, 0 * q, 1 + 0 * q).reshape(W.shape), atol=1e-11
-    )
+    expected = model.base_regressor(q, 0 * q, 1 + 0 * q)
+    np.testing.assert_allclose(W, expected.reshape(W.shape), atol=1e-11)
     with pytest.raises(LoopError, match="five-bar: sample 3: the loops"):
         model.observation(q + [[9.0, -9.0]] * (np.arange(40) == 2)[:, None], 0 * q, q)
 

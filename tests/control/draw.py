@@ -20,18 +20,9 @@ def drawn(seed: int, tree: bool = False) -> Robot:
         variable, number = f"{sign}q{j} + {rng.normal():.3f}", f"{rng.normal():.3f}"
         turn, along = ("pi/2", f"{rng.uniform(-3, 3):.3f}", 0), rng.normal(0, 0.3, 2).round(3)
         alpha, gamma = rng.choice(np.array(turn, dtype=object), 2)
-        cells = [
-            str(j),
-            before,
-            int(j < n or not tied),
-            int(slides),
-            gamma,
-            along[0],
-            alpha,
-            along[1],
-            number if slides else variable,
-            variable if slides else number,
-        ]
+        last = (number, variable) if slides else (variable, number)
+        frame = (gamma, along[0], alpha, along[1])
+        cells = [str(j), before, int(j < n or not tied), int(slides), *frame, *last]
         rows.append(
             "["
             + ", ".join(f'"{cell}"' if isinstance(cell, str) else str(cell) for cell in cells)

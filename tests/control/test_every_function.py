@@ -322,9 +322,7 @@ def everything(made: Folder, s: State) -> dict[str, np.ndarray]:
         "start": home_of(made),
         "widths": widths(made),
         "chi": np.array(list(made.chi.values())),
-        "x": x,
-        "xd": 0 * x + 1,
-        "xdd": 0 * x + 1,
+        **{"x": x, "xd": 0 * x + 1, "xdd": 0 * x + 1},
     }
 
 

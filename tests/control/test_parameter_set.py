@@ -60,9 +60,8 @@ def test_widths_at_run_time():
     assert count == n
     width = random.uniform(0.01, 1, n)
     sharp = model.inverse_dynamics(q, qd, qdd, beta)
-    none = model.evaluate(
-        "smooth_inverse_dynamics", q=q, qd=qd, qdd=qdd, beta=beta, widths=np.zeros(n)
-    )
+    state = {"q": q, "qd": qd, "qdd": qdd}
+    none = model.evaluate("smooth_inverse_dynamics", **state, beta=beta, widths=np.zeros(n))
     np.testing.assert_array_equal(none, sharp)
     smooth = model.evaluate("smooth_friction", qd=qd, beta=beta, widths=width)
     Fs = np.array([chi[f"Fs{j.name}"] for j in model.spec.joints])

@@ -12,10 +12,8 @@ from modeler.core.manifest import EmittedModule, FunctionSpec
 
 HERE = Path(__file__).resolve().parent
 
-CPUS = {
-    "cortex-m4": ("-mfpu=fpv4-sp-d16", "mps2-an386"),
-    "cortex-m7": ("-mfpu=fpv5-d16", "mps2-an500"),
-}
+FPU_4, FPU_5 = "-mfpu=fpv4-sp-d16", "-mfpu=fpv5-d16"
+CPUS = {"cortex-m4": (FPU_4, "mps2-an386"), "cortex-m7": (FPU_5, "mps2-an500")}
 """Floating-point unit, and the machine of qemu that has it: that of the M4 knows no double."""
 
 STRICT = tuple(

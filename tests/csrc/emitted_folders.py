@@ -27,9 +27,8 @@ CLEAN = {k: v for k, v in os.environ.items() if k not in ("CFLAGS", "MAKEFLAGS",
 def run(*command: object, where: Path, fails: bool = False, **environment: str) -> str:
     """What a command prints."""
     words = [str(word) for word in command]
-    done = subprocess.run(
-        words, cwd=where, env={**CLEAN, **environment}, capture_output=True, text=True
-    )
+    env = {**CLEAN, **environment}
+    done = subprocess.run(words, cwd=where, env=env, capture_output=True, text=True)
     assert (done.returncode != 0) == fails, f"{words}\n{done.stdout}{done.stderr}"
     return done.stdout + done.stderr
 

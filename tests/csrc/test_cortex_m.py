@@ -77,9 +77,8 @@ def test_it_computes_what_the_host_computes(name, cpu, precision, bound, tmp_pat
     compiled = loaded(host)
     cells = dict(zip(("q", "qd", "qdd"), states(len(host.spec.joints), 20), strict=True))
     if host.spec.closure is not None:
-        cells["q"] = 0.1 * cells["q"] + [
-            host.spec.closure.home[k] for k in host.spec.closure.actuated
-        ]
+        loops = host.spec.closure
+        cells["q"] = 0.1 * cells["q"] + [loops.home[k] for k in loops.actuated]
         bound *= 10  # what closes the loops is only as exact as the posture is far from singular
     rng = np.random.default_rng(1)
     cells["beta"] = np.tile(rng.normal(size=len(host.spec.base)), (20, 1))

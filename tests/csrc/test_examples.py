@@ -158,16 +158,13 @@ def draw_learning(time: np.ndarray, off: np.ndarray, error: np.ndarray) -> None:
         Curve(f"joint {k + 1}", time, error[:, k], Style(color))
         for k, color in enumerate((BLUE, VERMILLION, GREEN))
     ]
+    learned = Panel("", "time [s]", "off by [%]", (learnt,))
+    tracking = Panel("", "time [s]", "tracking error [mrad]", tuple(joints))
     picture = Picture(
         "adaptive",
         "A controller that learns its parameters from nothing",
         "",
-        (
-            (
-                Panel("", "time [s]", "off by [%]", (learnt,)),
-                Panel("", "time [s]", "tracking error [mrad]", tuple(joints)),
-            ),
-        ),
+        ((learned, tracking),),
         320,
     )
     place = Path(__file__).parents[2] / "docs" / "how-to" / "adaptive.svg"

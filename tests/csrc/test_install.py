@@ -111,10 +111,8 @@ def check_pkg_config(place: Path, prefix: Path) -> None:
         said = run("pkg-config", *words, where=place, PKG_CONFIG_PATH=str(path), fails=fails)
         return said.strip()
 
-    for package, program, says in (
-        ("emps", "consumer", f"{signature()} 100"),
-        ("emps_batch", "many", "2"),
-    ):
+    one = ("emps", "consumer", f"{signature()} 100")
+    for package, program, says in (one, ("emps_batch", "many", "2")):
         flags = ask("--cflags", "--libs", package).split()
         words = ["-Wall", "-Werror", f"{program}.cpp", *flags, rpath, "-o", program]
         run("g++", *words, where=place)

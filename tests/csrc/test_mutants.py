@@ -75,9 +75,7 @@ def code_lines(emitted: EmittedModule, *runtime: str) -> Iterator[tuple[str, int
         mask = file.startswith(emitted.spec.prefix) and file.endswith(".c")
         if not mask and file not in runtime:
             continue
-        plain = re.sub(
-            r"/\*.*?\*/|//[^\n]*", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.S
-        )
+        plain = re.sub(r"/\*.*?\*/|//[^\n]*", lambda m: re.sub(".", " ", m[0]), text, flags=re.S)
         at, head = 0, ""
         for line in plain.splitlines(keepends=True):
             head = line if re.match(r"[A-Za-z]", line) else head
@@ -126,10 +124,8 @@ def same_results(emitted: EmittedModule, changed: EmittedModule, name: str) -> b
     random = np.random.default_rng(3)
     spec, n = emitted.spec, len(inputs["q"])
     rounding = 1e-5 if spec.precision == "single" else 1e-12
-    inputs |= {
-        "beta": random.normal(size=len(spec.base)),
-        "chi": random.normal(size=len(spec.standard)),
-    }
+    inputs["beta"] = random.normal(size=len(spec.base))
+    inputs["chi"] = random.normal(size=len(spec.standard))
     inputs |= {"dq": 0.01 * inputs["qd"], "dt": np.full((n, 1), 0.002)}
     both = [Functions(each) for each in (emitted, changed)]
     if spec.closure is not None:
@@ -165,10 +161,8 @@ class Folder:
         """Whether the check still passes with these units compiled in that folder."""
         if not all(self.compile(unit, changed, changed) for unit in units):
             return False
-        objects = [
-            (changed if unit in units else self.place) / f"{Path(unit).stem}.o"
-            for unit in self.units
-        ]
+        places = {unit: changed if unit in units else self.place for unit in self.units}
+        objects = [place / f"{Path(unit).stem}.o" for unit, place in places.items()]
         link = [compiler("gcc"), *objects, "-lm", "-o", changed / "check"]
         if subprocess.run(link, capture_output=True).returncode != 0:
             return False

@@ -97,9 +97,8 @@ def test_an_exhibit_says_what_the_robot_has() -> None:
     assert (result.joints, result.base) == (4, derivation.base.rank)
     sources = [text for name, text in emitted.files.items() if name[-2:] in (".c", ".h")]
     assert result.lines == sum(len(text.splitlines()) for text in sources)
-    assert (
-        f"{result.lines} lines, {sum(len(text.encode()) for text in sources)} bytes" in result.page
-    )
+    size = sum(len(text.encode()) for text in sources)
+    assert f"{result.lines} lines, {size} bytes" in result.page
     for function in emitted.spec.functions:
         row = f"| `{function.name}` | {function.additions} | {function.multiplications} |"
         assert row in result.page

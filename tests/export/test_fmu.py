@@ -13,7 +13,7 @@ from modeler.core.errors import BuildError
 from modeler.core.files import locate_resources
 from tests.csrc.emitted_folders import run as run_command
 from tests.modules import STRICT, compiler, loaded
-from tests.rotation import with_cases
+from tests.rotation import rotating, with_cases
 from tests.when_used import WhenUsed
 
 fmpy = WhenUsed("fmpy", "NOT CHECKED: no FMPy")
@@ -65,9 +65,7 @@ class Plant:
         return np.array(rows)
 
 
-@pytest.fixture(
-    scope="module", params=["demo-arm", pytest.param("five-bar", marks=pytest.mark.rotating)]
-)
+@pytest.fixture(scope="module", params=["demo-arm", *rotating("five-bar")])
 def unit(request, tmp_path_factory):
     """A robot as FMU, its equations, a state and torques over time."""
     robot = load(request.param)
@@ -99,17 +97,9 @@ def run(unit, kind: str, torques, **options) -> np.ndarray:
         values[f"tau{name}"] = column
     start = dict(zip(states, state, strict=True)) | {"step": 5e-4}
     start |= {f"width{name}": WIDTH for name in plant.coulomb}
-    run = fmpy.simulate_fmu(
-        str(place),
-        stop_time=LENGTH,
-        output_interval=STEP,
-        fmi_type=kind,
-        input=values,
-        start_values=start,
-        output=states,
-        validate=True,
-        **options,
-    )
+    options |= {"stop_time": LENGTH, "output_interval": STEP, "fmi_type": kind, "input": values}
+    options |= {"start_values": start, "output": states, "validate": True}
+    run = fmpy.simulate_fmu(str(place), **options)
     assert np.allclose(run["time"], times)
     return np.column_stack([run[name] for name in states])
 

@@ -204,9 +204,7 @@ def test_a_body_too_small_for_mujoco_is_told(tmp_path) -> None:
 
 
 def test_numbers_of_the_file_that_the_robot_came_from_are_told(tmp_path) -> None:
-    values = {
-        (v.part, v.quantity): v for v in export(reread(tmp_path, "a.urdf", URDF), to="urdf").values
-    }
-    assert (
-        values["shoulder", "damping"].before == 1.2 and values["shoulder", "friction"].before == 0.7
-    )
+    written = export(reread(tmp_path, "a.urdf", URDF), to="urdf")
+    values = {(v.part, v.quantity): v for v in written.values}
+    assert values["shoulder", "damping"].before == 1.2
+    assert values["shoulder", "friction"].before == 0.7

@@ -98,9 +98,8 @@ def test_urdf_outside_the_numbers_is_the_same_text(tmp_path) -> None:
     assert not [line for line in lines if line not in before]
     # one joint had no <dynamics>, one body no <origin>
     added = [line.strip() for line in lines if b"<dynamics" in line]
-    assert sorted(added) == [b'<dynamics damping="N"/>'] * 2 + [
-        b'<dynamics friction="N" damping="N"/>'
-    ]
+    both = b'<dynamics friction="N" damping="N"/>'
+    assert sorted(added) == [b'<dynamics damping="N"/>'] * 2 + [both]
     gone = [line for line in before if line not in lines]
     assert gone == [b'    <inertial><mass value="N"/>']
 
@@ -195,9 +194,8 @@ def test_another_gravity_is_told(urdf, mjcf, tmp_path) -> None:
     ),
 )
 def test_joints_that_follow_otherwise_are_refused(tmp_path, first, second, word) -> None:
-    texts = [
-        URDF.replace(b'<axis xyz="0 0 -1"/>', b'<axis xyz="0 0 -1"/>' + x) for x in (first, second)
-    ]
+    axis = b'<axis xyz="0 0 -1"/>'
+    texts = [URDF.replace(axis, axis + x) for x in (first, second)]
     one, other = (written(tmp_path, f"{k}.urdf", text) for k, text in enumerate(texts))
     robot = read_robot(one)
     assert export(robot, like=one).data == texts[0]
@@ -220,9 +218,8 @@ def test_rounding_is_no_change(tmp_path) -> None:
     rng = np.random.default_rng()
     for _ in range(5):
         turn, far = (" ".join(map(repr, rng.normal(size=3).tolist())) for _ in range(2))
-        text = URDF.replace(
-            b'<origin xyz="0 0 0.05"/>', f'<origin xyz="0 0 0.05" rpy="{turn}"/>'.encode()
-        )
+        turned = f'<origin xyz="0 0 0.05" rpy="{turn}"/>'
+        text = URDF.replace(b'<origin xyz="0 0 0.05"/>', turned.encode())
         text = text.replace(b'<origin xyz="0.05 0 0.3"', f'<origin xyz="{far}"'.encode())
         place = written(tmp_path, "arm.urdf", text)
         robot = read_robot(place)

@@ -23,11 +23,8 @@ PARTIAL = robot_text("half-said")
 
 def stated(robot: Robot) -> Robot:
     """Without dry friction and offsets, which are no forces of MuJoCo's inverse dynamics."""
-    lines = [
-        line
-        for line in robot.text.splitlines()
-        if not re.match(r'"?(Fs|Off)\w*(\{i\})?"? *=', line)
-    ]
+    dry = r'"?(Fs|Off)\w*(\{i\})?"? *='
+    lines = [line for line in robot.text.splitlines() if not re.match(dry, line)]
     return parse_robot_text("\n".join(lines), robot.name)
 
 

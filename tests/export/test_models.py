@@ -24,9 +24,8 @@ def fitted(tmp_path_factory):
     folder = tmp_path_factory.mktemp("arm")
     place = written(folder, "arm.urdf", URDF)
     truth = changed(read_robot(place), np.random.default_rng())
-    log = simulate(
-        truth, duration=6.0, rate=250.0, seed=int(np.random.default_rng().integers(1000))
-    )
+    seed = int(np.random.default_rng().integers(1000))
+    log = simulate(truth, duration=6.0, rate=250.0, seed=seed)
     return place, truth, identify(read_robot(place), log)
 
 
@@ -70,9 +69,8 @@ def test_values_have_the_sigmas_of_the_fit(fitted) -> None:
     assert friction.before == 0.7 and friction.after == pytest.approx(model["Fs1"].value)
     assert friction.sigma == pytest.approx(model["Fs1"].sigma)
     physics = build_export_parameters(model, Original())
-    assert np.allclose(
-        physics.machine.K @ physics.completion.chi, model.beta, rtol=1e-12, atol=1e-13
-    )
+    beta = physics.machine.K @ physics.completion.chi
+    assert np.allclose(beta, model.beta, rtol=1e-12, atol=1e-13)
     C = physics.machine.K @ physics.completion.covariance @ physics.machine.K.T
     assert np.allclose(C, model.covariance, rtol=1e-6, atol=1e-9 * np.abs(model.covariance).max())
     # A sigma by random draws of the ten parameters.
@@ -126,9 +124,8 @@ def test_what_a_format_cannot_hold_is_told_with_its_share(tmp_path) -> None:
 
 def a_link(rng) -> np.ndarray:
     points = np.c_[rng.normal(scale=0.1, size=(9, 3)), np.ones(9)]
-    return estimation.extract_parameters(
-        np.einsum("ki,k,kj->ij", points, rng.uniform(0.1, 0.4, 9), points)
-    )
+    masses = rng.uniform(0.1, 0.4, 9)
+    return estimation.extract_parameters(np.einsum("ki,k,kj->ij", points, masses, points))
 
 
 def test_the_nearest_machine_is_the_nearest() -> None:
@@ -165,9 +162,8 @@ def test_a_fit_that_could_not_be_built_becomes_one_that_could(fitted) -> None:
     values = list(model.fit.parameters)
     at = next(i for i, p in enumerate(values) if p.name == "Fs2")
     values[at] = dataclasses.replace(values[at], value=-3.0 * values[at].sigma)
-    broken = dataclasses.replace(
-        model, fit=dataclasses.replace(model.fit, parameters=tuple(values))
-    )
+    fit = dataclasses.replace(model.fit, parameters=tuple(values))
+    broken = dataclasses.replace(model, fit=fit)
     files = export(broken, like=place)
     assert files.shift_in_sigmas == pytest.approx(3.0, rel=0.2) and "moved by 3" in files.summary()
     elbow = [v for v in files.values if (v.part, v.quantity) == ("elbow", "friction")]
@@ -206,9 +202,8 @@ def test_links_without_values_get_capsules_and_it_is_told() -> None:
     assert any("that of a capsule" in note for note in files.notes)
     rng = np.random.default_rng()
     q, qd, qdd = (rng.uniform(-0.5, 0.5, (50, 4)) for _ in range(3))
-    left = tuple(
-        {p.name.rstrip("0123456789") for p in model.spec.standard if p.kind == "offset"} | {"Fs"}
-    )
+    offsets = [p.name for p in model.spec.standard if p.kind == "offset"]
+    left = tuple({name.rstrip("0123456789") for name in offsets} | {"Fs"})
     names = [f"joint_{joint.name}" for joint in robot.moving_joints]
     ours = torques_without(model, q, qd, qdd, left)
     assert close(mujoco_torques(files.data, names, q, qd, qdd), ours)

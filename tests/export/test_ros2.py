@@ -11,6 +11,7 @@ from modeler.cli import main
 from modeler.core.errors import ModelerError
 from modeler.robot import parse_robot_text
 from tests.csrc import emitted_folders
+from tests.rotation import rotating
 
 ROS2 = Path(__file__).with_name("ros2")
 """A program around the core, and headers of ROS 2 Jazzy as far as the controller uses them."""
@@ -20,9 +21,7 @@ run = partial(emitted_folders.run, where=ROS2)
 WARNED = ("-Wall", "-Wextra", "-Wconversion", "-Werror")
 
 
-@pytest.fixture(
-    scope="module", params=["demo-arm", pytest.param("five-bar", marks=pytest.mark.rotating)]
-)
+@pytest.fixture(scope="module", params=["demo-arm", *rotating("five-bar")])
 def package(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp("ros2") / "package"
     return export(load(request.param), folder, to="ros2"), folder
@@ -38,18 +37,8 @@ def test_the_core_tracks_a_motion_without_ros(package, tmp_path) -> None:
     sources = sorted((folder / "src").glob("*.c"))
     for source in sources:
         run("gcc", "-std=c99", "-O1", "-c", source, "-o", tmp_path / f"{source.stem}.o")
-    run(
-        "g++",
-        "-std=c++17",
-        "-O1",
-        *WARNED,
-        "-I",
-        folder / "src",
-        tmp_path / "harness.cpp",
-        *tmp_path.glob("*.o"),
-        "-o",
-        tmp_path / "harness",
-    )
+    files = (tmp_path / "harness.cpp", *tmp_path.glob("*.o"), "-o", tmp_path / "harness")
+    run("g++", "-std=c++17", "-O1", *WARNED, "-I", folder / "src", *files)
     right, largest, *message = map(float, run(tmp_path / "harness", 1.0, 0.0).split())
     wrong = float(run(tmp_path / "harness", 0.7, 0.0).split()[0])
     assert right < 2e-3 < wrong  # rad; it begins 0.1 rad away
@@ -60,18 +49,9 @@ def test_the_core_tracks_a_motion_without_ros(package, tmp_path) -> None:
 
 def test_the_controller_compiles_on_stand_ins_of_ros(package, tmp_path) -> None:
     _, folder = package
-    run(
-        "g++",
-        "-std=c++17",
-        "-fsyntax-only",
-        *WARNED,
-        "-Wno-sign-conversion",
-        "-isystem",
-        ROS2 / "headers",
-        "-I",
-        folder / "src",
-        folder / "src" / "controller.cpp",
-    )
+    flags = ("-std=c++17", "-fsyntax-only", *WARNED, "-Wno-sign-conversion")
+    headers = ("-isystem", ROS2 / "headers", "-I", folder / "src")
+    run("g++", *flags, *headers, folder / "src" / "controller.cpp")
 
 
 def test_the_files_name_one_another(package) -> None:
@@ -80,9 +60,8 @@ def test_the_files_name_one_another(package) -> None:
     made = ET.parse(folder / "plugin.xml").getroot()
     assert made.get("path") == name
     assert made.find("class").get("type") == f"{name}::Controller"
-    assert (
-        f"PLUGINLIB_EXPORT_CLASS({name}::Controller" in result.files["src/controller.cpp"].decode()
-    )
+    source = result.files["src/controller.cpp"].decode()
+    assert f"PLUGINLIB_EXPORT_CLASS({name}::Controller" in source
     cmake = result.files["CMakeLists.txt"].decode()
     assert all(f"src/{p.name}\n" in cmake for p in (folder / "src").glob("*.c"))
     assert f"type: {name}/Controller" in result.files["config/controller.yaml"].decode()

@@ -70,9 +70,8 @@ def slide(tmp_path_factory) -> Path:
     (folder / "emps.toml").write_text(read_builtin_robot("emps") + MAT)
     for name, seed in (("a", "1"), ("b", "2")):
         out = folder / f"{name}.parquet"
-        assert (
-            main(f"simulate emps --duration 8 --noise 0.5 --seed {seed} --out {out}".split()) == 0
-        )
+        words = f"simulate emps --duration 8 --noise 0.5 --seed {seed} --out {out}".split()
+        assert main(words) == 0
         table = {column: np.array(v) for column, v in pq.read_table(out).to_pydict().items()}
         other = {"t": table["time"] * 1e3, "x": -1e3 * table["q1"], "F": table["tau1"] * 1e-3}
         scipy.io.savemat(folder / f"{name}.mat", {"run": other})

@@ -65,19 +65,10 @@ def labview(folder: Path, table: Table) -> Path:
     """An .lvm file: two headers, no name of its own for the time, a column of comments."""
     n, x = len(table["time"]), "\t".join
     first = [
-        "LabVIEW Measurement\t",
-        "Writer_Version\t2",
-        "Reader_Version\t2",
-        "Separator\tTab",
-        "Decimal_Separator\t.",
-        "Multi_Headings\tNo",
-        "X_Columns\tOne",
-        "Time_Pref\tAbsolute",
-        "Operator\tme",
-        "Date\t2024/05/01",
-        "Time\t12:00:00.1234567890123456789",
-        "***End_of_Header***\t",
-        "\t",
+        *("LabVIEW Measurement\t", "Writer_Version\t2", "Reader_Version\t2", "Separator\tTab"),
+        *("Decimal_Separator\t.", "Multi_Headings\tNo", "X_Columns\tOne", "Time_Pref\tAbsolute"),
+        *("Operator\tme", "Date\t2024/05/01", "Time\t12:00:00.1234567890123456789"),
+        *("***End_of_Header***\t", "\t"),
     ]
     second = [
         "Channels\t6\t\t\t\t\t\t",

@@ -45,10 +45,8 @@ def test_a_table_of_a_map_reads_alike(table, case):
 def test_a_pattern_over_a_joint_replaces_it(case):
     low = build_map({"q2": "enc2", "q<j>": "a{j}", "x": "force"}, "robot")
     high = build_map({"q<j>": "b{j}"}, "--map")
-    assert high.merge_over(low).build_table(case.compiled.spec.joints) == {
-        "q<j>": "b{j}",
-        "x": "force",
-    }
+    joints = case.compiled.spec.joints
+    assert high.merge_over(low).build_table(joints) == {"q<j>": "b{j}", "x": "force"}
 
 
 def degrees(case) -> dict[str, np.ndarray]:
@@ -169,9 +167,8 @@ def test_options_stand_in_the_robot_file(slide, tmp_path, run, monkeypatch):
     assert values(tmp_path / "m.json") == pytest.approx(values(tmp_path / "p.json"), rel=1e-12)
     _, out, err = run("diagnose", "m.json", log, "--json", "d.json")
     assert "by [diagnose] of the robot file" in out + err
-    assert "asymmetric_viscous" not in json.dumps(
-        json.loads((tmp_path / "d.json").read_text())["effects"]
-    )
+    report = json.loads((tmp_path / "d.json").read_text())
+    assert "asymmetric_viscous" not in json.dumps(report["effects"])
 
 
 SECTIONS = [

@@ -17,7 +17,7 @@ from modeler.logs.readers import read_columns
 from modeler.regression.read import open_source
 from tests.logs.test_log_clocks import csv
 from tests.logs.writers import JOINTS, ORDERS, joined
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 from tests.texts import read_pairs
 
 NAMES = "names=1:waist,2:shoulder,3:elbow"
@@ -41,9 +41,7 @@ SHOWN = {
 }
 
 
-@pytest.mark.parametrize(
-    "how", ["python", "numpy over lines", *rotating("json", "numpy", "tuple", "array")]
-)
+@with_cases("how", "python", "numpy over lines", *rotating("json", "numpy", "tuple", "array"))
 def test_lists_in_cells_are_columns(how, short, tmp_path):
     path = tmp_path / "run.csv"
     path.write_text(listed(short.table, SHOWN[how]))
@@ -154,10 +152,8 @@ def test_episodes_are_segments(times, short, tmp_path):
     rate = [] if times else ["rate=1000"]
     log = short.check(path, ["auto", *rate])
     assert np.flatnonzero(np.diff(log.segment)).tolist() == [129, 229]
-    assert any(
-        "3 episodes, data/demo_8 to 10, one after the other as segments" in t
-        for t in log.reading_notes
-    )
+    said = "3 episodes, data/demo_8 to 10, one after the other as segments"
+    assert any(said in note for note in log.reading_notes)
     (log,) = read_logs(short.compiled, [path], ["auto", *rate, "topic=data/demo_9"])
     assert log.q == pytest.approx(joined(short.table, "q")[130:230])
     if not times:

@@ -36,10 +36,8 @@ def test_names_that_are_no_pair():
 def two_columns(table, kind=int):
     """The table with its time in whole seconds, of that kind, and nanoseconds."""
     moments = np.array(stamps(table))
-    time = {
-        "header.stamp.sec": (moments // 10**9).astype(kind),
-        "header.stamp.nanosec": moments % 10**9,
-    }
+    seconds = (moments // 10**9).astype(kind)
+    time = {"header.stamp.sec": seconds, "header.stamp.nanosec": moments % 10**9}
     return time | {name: v for name, v in table.items() if name != "time"}
 
 
@@ -124,10 +122,8 @@ def test_rows_that_are_not_even_have_no_rate():
     chance = np.random.default_rng(4)
     time = np.floor(np.cumsum(chance.exponential(0.004, 3000)) / 0.01) * 0.01
     assert "rows are not even" in describe_coarse_clock(time, [chance.normal(size=3000)])
-    assert (
-        describe_coarse_clock(np.repeat(np.arange(300) * 0.01, 2), [np.repeat(np.arange(300), 2)])
-        == ""
-    )
+    twice = np.repeat(np.arange(300), 2)
+    assert describe_coarse_clock(0.01 * twice, [twice]) == ""
 
 
 @pytest.mark.parametrize("step", [0.01, 0.1])

@@ -55,11 +55,8 @@ def numbers(value):
 def test_from_python_too(slide):
     assert values(slide / "m.json") == pytest.approx(values(slide / "p.json"), rel=1e-12)
     model = load_model(slide / "p.json")
-    mapping = {
-        "time": "run.t [ms]",
-        "q1": {"column": "run.x", "unit": "mm", "sign": -1},
-        "tau1": "run.F [kN]",
-    }
+    place = {"column": "run.x", "unit": "mm", "sign": -1}
+    mapping = {"time": "run.t [ms]", "q1": place, "tau1": "run.F [kN]"}
     data = compare(model, [slide / "b.mat"], mapping).to_dict()
     twin = compare(model, [slide / "b.parquet"]).to_dict()
     assert data["relative_error"] == pytest.approx(twin["relative_error"], rel=1e-9)

@@ -61,9 +61,7 @@ def test_other_topics_hold_their_last_message(short, tmp_path):
         line for line in log.reading_notes if line.startswith("/motor/heat joined to that clock")
     ]
     assert len(joined) == 1 and "at most 0.099 s old" in joined[0]
-    assert any(
-        line.startswith("rows are the messages of /joint_states") for line in log.reading_notes
-    )
+    assert any(n.startswith("rows are the messages of /joint_states") for n in log.reading_notes)
     assert log.notes == ()
 
 

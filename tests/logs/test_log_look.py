@@ -61,12 +61,8 @@ def test_what_is_in_a_log_and_the_suggestion_serves_as_a_mapping(log_output, tmp
     assert raw["log"] == "run.parquet" and raw["rows"] == len(table["time"])
     assert raw["clock"]["rate"] == pytest.approx(1000.0)
     assert raw["clock"]["duration"] == pytest.approx(2.499)
-    assert (
-        raw["clock"]["gaps"]
-        == raw["clock"]["repeated_steps"]
-        == raw["clock"]["backward_steps"]
-        == 0
-    )
+    clock = raw["clock"]
+    assert clock["gaps"] == clock["repeated_steps"] == clock["backward_steps"] == 0
     first = next(c for c in raw["channels"] if c["name"] == "pos_1")
     assert first["low"] == pytest.approx(table["pos_1"].min())
     assert (first["unit"], first["is_unit_guessed"]) == ("deg", True)
@@ -226,18 +222,12 @@ NAMES = ("time", "t [ms]", "q1", "qd1", "pos_1", "pos[2]", "i_1", "x", "temp", '
 def odd(rng, n):
     """A column as a broken logger leaves it."""
     t = np.arange(n) * 10.0 ** rng.integers(-9, 9)
-    return (
-        t,
-        t[::-1],
-        rng.normal(size=n),
-        np.full(n, np.nan),
-        np.full(n, 1.5),
-        np.where(rng.random(n) < 0.5, np.nan, rng.normal(size=n)),
-        1e300 * rng.normal(size=n),
-        np.full(n, np.inf),
-        np.round(1e4 * rng.normal(size=n)),
-        1e-310 * np.sin(t),
-    )[rng.integers(10)]
+    columns = (
+        *(t, t[::-1], rng.normal(size=n), np.full(n, np.nan), np.full(n, 1.5)),
+        *(np.where(rng.random(n) < 0.5, np.nan, rng.normal(size=n)), 1e300 * rng.normal(size=n)),
+        *(np.full(n, np.inf), np.round(1e4 * rng.normal(size=n)), 1e-310 * np.sin(t)),
+    )
+    return columns[rng.integers(10)]
 
 
 def test_whatever_is_in_it_is_told(tmp_path):

@@ -53,9 +53,8 @@ def test_messages_as_objects_of_json(short, tmp_path):
     """By lists, by an object for each joint; what is missing is null."""
     by_joint = []
     for stamp, names, q, tau in states(short.table):
-        joints = [
-            {"name": n, "position": a, "effort": b} for n, a, b in zip(names, q, tau, strict=True)
-        ]
+        rows = zip(names, q, tau, strict=True)
+        joints = [{"name": n, "position": a, "effort": b} for n, a, b in rows]
         message = {"timestamp": {"sec": stamp // 10**9, "nsec": stamp % 10**9}, "joints": joints}
         by_joint.append(("/js", stamp + 9, json.dumps(message).encode()))
     for messages in (json_states(short.table), by_joint):
@@ -160,29 +159,19 @@ def test_values_by_the_names_of_interfaces(headers, short, tmp_path):
         ]
         header = ros.header(stamp if headers == "valid" else 0)
         late = 700_000 if headers == "valid" and len(messages) % 2 else 0
-        messages.append(
-            (stamp + late, ros.of(kind, header=header, joint_names=names, interface_values=values))
-        )
+        message = ros.of(kind, header=header, joint_names=names, interface_values=values)
+        messages.append((stamp + late, message))
     short.check(ros.bag(tmp_path / "bag", kind, messages), MAPPING)
 
 
 def test_feedback_is_measured_and_reference_is_commanded(short, tmp_path):
     ros, kind = Control(), "control_msgs/msg/JointTrajectoryControllerState"
-    messages = [
-        (
-            stamp,
-            ros.of(
-                kind,
-                header=ros.header(stamp),
-                joint_names=names,
-                reference=ros.point(q + 0.1),
-                feedback=ros.point(q, tau),
-                error=ros.point(0.1 + 0.0 * q),
-                output=ros.point((), 9.0 * tau),
-            ),
-        )
-        for stamp, names, q, tau in states(short.table)
-    ]
+    messages = []
+    for stamp, names, q, tau in states(short.table):
+        points = {"reference": ros.point(q + 0.1), "feedback": ros.point(q, tau)}
+        points |= {"error": ros.point(0.1 + 0.0 * q), "output": ros.point((), 9.0 * tau)}
+        message = ros.of(kind, header=ros.header(stamp), joint_names=names, **points)
+        messages.append((stamp, message))
     log = short.check(ros.bag(tmp_path / "bag", kind, messages), MAPPING)
     assert log.commanded == pytest.approx(log.q + 0.1)
 

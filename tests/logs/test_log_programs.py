@@ -57,15 +57,11 @@ def test_every_kind_gives_the_run_and_its_blocks_the_same_rows(name, case, short
     for column, values in whole.columns:
         items = [dict(part.columns)[column] for part in parts]
         if values.is_numeric:
-            assert np.array_equal(
-                np.concatenate([f.read_numbers() for f in items]), values.read_numbers()
-            )
+            numbers = np.concatenate([f.read_numbers() for f in items])
+            assert np.array_equal(numbers, values.read_numbers())
     window = blocks.read_window(0.5, 60)
-    assert (window.units, window.reading_notes, window.rate) == (
-        whole.units,
-        whole.reading_notes,
-        whole.rate,
-    )
+    assert window.rate == whole.rate
+    assert window.units == whole.units and window.reading_notes == whole.reading_notes
     name, seen = window.columns[0][0], window.columns[0][1].read_numbers()
     within = np.isin(dict(whole.columns)[name].read_numbers(), seen)
     assert within.sum() >= len(seen) > 40
@@ -281,9 +277,7 @@ def test_any_habit_is_read_back(
     result = read_columns(path, ColumnRequest())
     first = "c1" if names == "none" else "ch0"
     assert result.columns[0][0] == first and result.rows == 40
-    assert np.column_stack([c.read_numbers() for _, c in result.columns]) == pytest.approx(
-        values, rel=1e-12
-    )
-    assert dict(result.units) == (
-        {f"ch{k}": "rad" for k in range(width)} if units and names != "none" else {}
-    )
+    numbers = np.column_stack([c.read_numbers() for _, c in result.columns])
+    assert numbers == pytest.approx(values, rel=1e-12)
+    named = width if units and names != "none" else 0
+    assert dict(result.units) == {f"ch{k}": "rad" for k in range(named)}

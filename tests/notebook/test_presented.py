@@ -19,7 +19,7 @@ from modeler.core.errors import DataError
 from modeler.core.result import Result, find_presentation
 from modeler.robot.read import parse_robot_text
 from tests.notebook.session import HIDDEN, reached, session
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 from tests.texts import read_pairs
 
 ALWAYS = ("log", "model")
@@ -120,9 +120,7 @@ def test_what_a_result_does_not_have_is_refused_with_what_it_has() -> None:
 SHOWN = read_pairs("robot <table derivation $ comparison <table diagnosis mu2 better load_friction")
 
 
-@pytest.mark.parametrize(
-    "name", ["robot", "derivation", *rotating("better", "comparison", "diagnosis")]
-)
+@with_cases("name", "robot", "derivation", *rotating("better", "comparison", "diagnosis"))
 def test_the_html_of_a_notebook_is_small_and_well_formed(name: str) -> None:
     text = session()[name]._repr_html_()
     assert len(text) < 100_000 and rows_of(text) > 0 and SHOWN[name] in text

@@ -9,9 +9,8 @@ import modeler.api as api
 from modeler.core.result import find_presentation
 from tests.notebook.session import session
 
-PAGE = (Path(__file__).resolve().parents[2] / "docs" / "reference" / "python.md").read_text(
-    encoding="utf-8"
-)
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = (ROOT / "docs/reference/python.md").read_text(encoding="utf-8")
 
 
 def part(title: str) -> str:

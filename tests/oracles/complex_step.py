@@ -44,9 +44,7 @@ class Oracle:
         self.gravity = np.array([e.evaluate(self.symbols) for e in robot.gravity])
         lengths = [abs(x) for A, *_ in self.rows.values() for x in A[:3, 3]]
         self.size = max(lengths, default=1.0) or 1.0
-        self.scale = np.array(
-            [1.0 if joint.is_revolute else self.size for joint in robot.free_joints]
-        )
+        self.scale = np.array([1.0 if j.is_revolute else self.size for j in robot.free_joints])
         self.width = 0.0  # of friction that turns around gradually, rad/s or m/s
         self.constant: dict[str, float] = {}  # weights by row that count as offsets, not as gravity
 
@@ -158,9 +156,8 @@ class Oracle:
             other, Jother = B[:, :, 2], _turning(Bw, B[:, :, 2])
             if loop.kind in ("cylindrical", "prismatic"):
                 items.append(np.cross(way, z))
-                slopes.append(
-                    np.cross(Jway, z[:, :, None], axis=1) + np.cross(way[:, :, None], Jz, axis=1)
-                )
+                turned = np.cross(Jway, z[:, :, None], axis=1)
+                slopes.append(turned + np.cross(way[:, :, None], Jz, axis=1))
             elif loop.kind == "planar":
                 items.append(_dot(way, z))
                 slopes.append(_across(way, Jz) + _across(z, Jway))
@@ -324,9 +321,8 @@ class Oracle:
     def _constant(self) -> np.ndarray:
         """(f,): torques of the free variables."""
         rows = self.constant.items()
-        return sum(
-            (x * self.follow[row][1] for row, x in rows), np.zeros(len(self.robot.free_joints))
-        )
+        still = np.zeros(len(self.robot.free_joints))
+        return sum((x * self.follow[row][1] for row, x in rows), still)
 
     def energies(self, u: np.ndarray, ud: np.ndarray) -> np.ndarray:
         """(m,): kinetic and potential, of the free variables."""

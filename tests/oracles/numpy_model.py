@@ -96,23 +96,18 @@ class NumpyModel:
             ParameterSpec(name, "SI", kind, effect, str(j + 1), None)
             for name, (kind, effect, j) in zip(names, kinds, strict=True)
         )
+        joints = []
+        for j, row in enumerate(self.rows):
+            kind = ("prismatic", "m") if row.sigma else ("revolute", "rad")
+            gain = self.gains[j] if self.gains else None
+            joints.append(JointSpec(str(j + 1), *kind, unit[j], j not in self.passive, gain))
         self.spec = ModuleSpec(
             robot="numpy_model",
             title="",
             prefix="numpy_model",
             format=FORMAT,
             symbols=(),
-            joints=tuple(
-                JointSpec(
-                    str(j + 1),
-                    "prismatic" if r.sigma else "revolute",
-                    "m" if r.sigma else "rad",
-                    unit[j],
-                    j not in self.passive,
-                    self.gains[j] if self.gains else None,
-                )
-                for j, r in enumerate(self.rows)
-            ),
+            joints=tuple(joints),
             standard=standard,
             base=tuple(
                 BaseSpec(names[k], names[k], "SI", kinds[k][0], tuple(range(n)), ()) for k in rest

@@ -117,9 +117,8 @@ class PinocchioDynamics:
         free = [joint.name for joint in self.robot.free_joints]
 
         def rows(q):
-            values = self.robot.evaluate_symbols() | {
-                f"q{name}": x for name, x in zip(free, q, strict=True)
-            }
+            symbols = self.robot.evaluate_symbols()
+            values = symbols | {f"q{name}": x for name, x in zip(free, q, strict=True)}
             relations = self.robot.relations
             return np.array(
                 [
@@ -144,9 +143,7 @@ class PinocchioDynamics:
 
     def effects(self, prefix):
         """{row: value} of an effect's parameter."""
-        return np.array(
-            [self.chi.get(prefix + joint.name, 0.0) for joint in self.robot.moving_joints]
-        )
+        return np.array([self.chi.get(prefix + j.name, 0.0) for j in self.robot.moving_joints])
 
     def friction(self, v):
         """Torques, and their slopes by v."""

@@ -382,19 +382,9 @@ def fitted(name, seed):
     p, qs = wrist(seed), np.random.default_rng(seed).uniform(-3, 3, (14, 3))
     names = table.closed.algebra.names[: table.closed.algebra.moving]
     items = [c for c in table.coefficients if c.function == name]
-    matrix = np.array(
-        [
-            [
-                prod(
-                    trigonometry(q)[str(n)] ** e
-                    for n, e in zip(names, c.exponents, strict=False)
-                    if e
-                )
-                for c in items
-            ]
-            for q in qs
-        ]
-    )
+    powers = [[x for x in zip(names, c.exponents, strict=False) if x[1]] for c in items]
+    known = [trigonometry(q) for q in qs]
+    matrix = np.array([[prod(at[str(n)] ** e for n, e in p) for p in powers] for at in known])
     wanted = np.array([function(name, q, p) for q in qs])
     values = np.linalg.lstsq(matrix, wanted, rcond=None)[0]
     assert np.allclose(matrix @ values, wanted, atol=1e-7)

@@ -129,19 +129,8 @@ def mjcf(name: str, links: Sequence[Link], step: float = 0.0005) -> str:
         tail.insert(0, f"{pad}</body>")
         pad += "  "
     motors = [f'    <motor name="{link.joint}" joint="{link.joint}"/>' for link in links]
-    return "\n".join(
-        [
-            *head,
-            *body,
-            *tail,
-            "  </worldbody>",
-            "  <actuator>",
-            *motors,
-            "  </actuator>",
-            "</mujoco>",
-            "",
-        ]
-    )
+    close = ["  </worldbody>", "  <actuator>", *motors, "  </actuator>", "</mujoco>", ""]
+    return "\n".join([*head, *body, *tail, *close])
 
 
 def logged(truth, believed, links, seed, seconds, rate=1000.0):

@@ -61,12 +61,7 @@ def test_a_spoilt_file_comes_back_better(tmp_path, monkeypatch, capsys, seed):
     assert valid and float(valid[2]) < 0.5, (seed, out.out)
     assert valid[1] == ": " or "between samples of low" in valid[3], (seed, valid[3])
     assert "added to the joints: rotor_inertia, offset, of which the file says nothing" in out.err
-    assert (
-        main(
-            ["export", "arm.model.json", "--to", "mjcf", "--like", "arm.xml", "--out", "better.xml"]
-        )
-        == 0
-    )
+    assert main("export arm.model.json --to mjcf --like arm.xml --out better.xml".split()) == 0
     better = Path("better.xml").read_text()
     assert numbers_of(better) == numbers_of(mjcf("arm", wrong))
     assert "<!-- a comment that stays -->" in better

@@ -76,9 +76,8 @@ def test_a_data_set_tells_armature_friction_and_damping(arm, tmp_path, fps):
 
 def test_without_k_e_what_the_motor_induces_is_damping(arm, tmp_path):
     folder = write_dataset(tmp_path / "set", list(episodes(50.0, 1)), MOTORS, 50.0)
-    joints = (
-        dataclasses.replace(j, drive=dataclasses.replace(j.drive, k_e=0.0)) for j in arm.spec.joints
-    )
+    replace = dataclasses.replace
+    joints = (replace(j, drive=replace(j.drive, k_e=0.0)) for j in arm.spec.joints)
     spec = dataclasses.replace(arm.spec, joints=tuple(joints))
     log = read_mapped_log(str(folder), spec, build_log_maps(arm, [folder], MAPPING)[0])
     result = identify(observe(arm, [log]), "weighted", arm)
@@ -117,8 +116,7 @@ def test_degrees_that_may_be_parts_of_a_range_are_told(arm, reach, doubted):
     lines = inspect_log(columns, arm).warnings
     assert any(EITHER in line for line in lines) == doubted
     (result,) = build_log_maps(arm, [columns], ["auto"])
-    assert any(EITHER in line for line in result.guess_notes) == (
-        doubted and "[deg]" in result.guess_notes[0]
-    )
+    notes = result.guess_notes
+    assert any(EITHER in line for line in notes) == (doubted and "[deg]" in notes[0])
     inputs = {"time": t} | {f"q{j}": columns[name] for j, name in enumerate(names, 1)}
     assert not any(EITHER in line for line in inspect_log(inputs, arm).warnings)

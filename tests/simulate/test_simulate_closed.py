@@ -21,9 +21,8 @@ from tests.modules import compiled, module
 from tests.robot_texts import CRANK, robot
 from tests.rotation import with_cases
 
-IDEAL = SimulationSettings(
-    duration=1.5, rate=400, encoder_counts=0, linear_resolution=0, torque_noise=0
-)
+EXACT = {"encoder_counts": 0, "linear_resolution": 0, "torque_noise": 0}
+IDEAL = SimulationSettings(duration=1.5, rate=400, **EXACT)
 
 
 @pytest.mark.parametrize("name", LOOPS)
@@ -46,9 +45,8 @@ def test_loops_stay_closed_and_rates_are_those_of_the_positions(name):
 def test_the_limits_are_kept(name, motion):
     source = read_robot(name)
     log = simulate(source, dataclasses.replace(IDEAL, motion=motion, duration=6.0, rate=50))
-    limits = dict(
-        zip((j.name for j in source.moving_joints), collect_motion_limits(source), strict=True)
-    )
+    names = (j.name for j in source.moving_joints)
+    limits = dict(zip(names, collect_motion_limits(source), strict=True))
     assert log.joints == tuple(joint.name for joint in source.coordinates)
     assert np.all(log.driven)
     for i, joint in enumerate(log.joints):
@@ -72,9 +70,8 @@ def test_relations_are_kept_by_the_controlled_robot(name):
     chi = np.array([truth.parameters[column.name] for column in module(name).base.columns])
     tau = c.inverse_dynamics(truth.q, truth.qd, truth.qdd, c.base_parameters(chi))
     turns, _ = closing.compute_tree_map(source)
-    couplings = [
-        [row.get(j.name, 0.0) for j in source.free_joints] for row in source.coupling.values()
-    ]
+    free = [j.name for j in source.free_joints]
+    couplings = [[row.get(name, 0.0) for name in free] for row in source.coupling.values()]
     shafts = truth.qd @ np.vstack([turns, *([couplings] if couplings else [])]).T
     core = 1e-3 * 2.0 * 20
     moving = np.all(np.abs(shafts) > core, axis=1)
@@ -106,9 +103,8 @@ def test_relations_of_relations():
 
 def test_sensors_seeds_and_progress():
     source, step, shares = read_robot("five-bar"), 2 * np.pi / 4096, []
-    settings = dataclasses.replace(
-        IDEAL, rate=1500, encoder_counts=4096, torque_noise=0.03, duration=2.0
-    )
+    coarse = {"rate": 1500, "encoder_counts": 4096, "torque_noise": 0.03}
+    settings = dataclasses.replace(IDEAL, **coarse, duration=2.0)
     log = simulate(source, settings, shares.append)
     np.testing.assert_allclose(log.q / step, np.round(log.q / step), atol=1e-6)
     assert 0.9 * step / 2 < np.abs(log.q - log.truth.q).max() <= step / 2 * (1 + 1e-9)

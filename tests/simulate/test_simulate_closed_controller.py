@@ -27,13 +27,11 @@ def plant_of(source: Robot):
 def test_the_plant_is_the_tree_with_multipliers(name: str) -> None:
     """Torques of the closed machine by projection and by multipliers; accelerations back."""
     source = read_robot(name)
-    truth = simulation.simulate(
-        source, dataclasses.replace(DRIVEN, rate=50, controller=False)
-    ).truth
+    open_loop = dataclasses.replace(DRIVEN, rate=50, controller=False)
+    truth = simulation.simulate(source, open_loop).truth
     plant, constraints = plant_of(source)
-    z = compute_inner_states(
-        plant, constraints, compute_closed_postures(source, constraints, truth.q)
-    )
+    postures = compute_closed_postures(source, constraints, truth.q)
+    z = compute_inner_states(plant, constraints, postures)
     count = len(z)
     tau = plant.torque.map(count)(truth.q.T, truth.qd.T, truth.qdd.T, z.T).full().T
     np.testing.assert_allclose(tau, truth.tau, rtol=0, atol=1e-9 * np.abs(tau).max())

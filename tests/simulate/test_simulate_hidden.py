@@ -211,9 +211,8 @@ def test_hysteresis_of_a_cable_takes_work_in_closed_loops():
 
 def test_friction_falls_as_its_joint_warms():
     settings = dataclasses.replace(SHORT, duration=4.0, motion="point-to-point")
-    log, p, force = friction_along(
-        "temperature_friction@2:time=4,start=5", ["coulomb", "viscous"], settings
-    )
+    heated = "temperature_friction@2:time=4,start=5"
+    log, p, force = friction_along(heated, ["coulomb", "viscous"], settings)
     standard = simulation.draw_plant_parameters(ARM, simulation.collect_motion_limits(ARM)).standard
     assert (p["Fv"], p["Fs"]) == (standard["Fv2"], standard["Fs2"])
     warm, v = log.further["temperature2"], log.truth.qd[:, 1]
@@ -332,9 +331,8 @@ def test_sensors_that_are_wrong_do_not_change_the_machine(clean):
     late = simulation.simulate(ARM, settings_of("time_delay:delay=0.006"))
     np.testing.assert_allclose(late.tau[4:], clean.tau[1:-3], atol=1e-9)
     part = simulation.simulate(ARM, settings_of("time_delay:delay=0.005")).tau[4:]
-    np.testing.assert_allclose(
-        part[1:], (clean.tau[3:-2] + clean.tau[2:-3]) / 2, atol=0.02 * np.ptp(clean.tau)
-    )
+    means = (clean.tau[3:-2] + clean.tau[2:-3]) / 2
+    np.testing.assert_allclose(part[1:], means, atol=0.02 * np.ptp(clean.tau))
     weak = simulation.simulate(ARM, settings_of("drive_gain@2:ratio=0.9"))
     np.testing.assert_allclose(weak.tau, clean.tau * [1, 0.9, 1], rtol=1e-12)
     lost = simulation.simulate(ARM, settings_of("drift@3:per_minute=6"))
@@ -445,9 +443,8 @@ def test_effects_on_motors_of_robots_with_loops(five_bar):
     log = simulation.simulate(source, dataclasses.replace(LOOPED, hidden=hidden))
     more = log.truth.tau - before.truth.tau
     q, v = log.truth.q[:, 1], log.truth.qd[:, 1]
-    np.testing.assert_allclose(
-        more[:, 1], sum(law(q, v) for law in LAWS_IN_LOOPS.values()), atol=1e-9
-    )
+    laws = sum(law(q, v) for law in LAWS_IN_LOOPS.values())
+    np.testing.assert_allclose(more[:, 1], laws, atol=1e-9)
     assert np.abs(more[:, 0]).max() < 1e-9
 
 

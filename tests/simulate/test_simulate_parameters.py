@@ -36,12 +36,10 @@ def test_body_of_a_cloud_of_points(seed):
     assert list(rigid.compute_standard_parameters(body)) == list(INERTIAL)
     assert rigid.compute_standard_parameters(body) == pytest.approx(standard, rel=1e-12)
     second = sum(m * np.outer(p, p) for m, p in zip(masses, places))  # noqa: B905
-    np.testing.assert_allclose(
-        rigid.compute_pseudo_inertia(standard)[:3, :3], second, rtol=1e-10, atol=1e-12
-    )
-    assert rigid.convert_pseudo_inertia(rigid.compute_pseudo_inertia(standard)) == pytest.approx(
-        standard
-    )
+    actual = rigid.compute_pseudo_inertia(standard)[:3, :3]
+    np.testing.assert_allclose(actual, second, rtol=1e-10, atol=1e-12)
+    matrix = rigid.compute_pseudo_inertia(standard)
+    assert rigid.convert_pseudo_inertia(matrix) == pytest.approx(standard)
 
 
 def test_points_rods_and_nothing_are_physical_but_no_less():

@@ -31,11 +31,8 @@ def test_within_the_limits_and_at_rest_at_both_ends(seed, duration):
 
 def test_derivatives_are_those_of_the_positions_and_continuous():
     rate = 2000.0
-    reference = build_exciting_reference(LIMITS, 12.0, rate, 0)
-    for value, slope, scale in (
-        (reference.q, reference.qd, 2.0),
-        (reference.qd, reference.qdd, 8.0),
-    ):
+    motion = build_exciting_reference(LIMITS, 12.0, rate, 0)
+    for value, slope, scale in ((motion.q, motion.qd, 2.0), (motion.qd, motion.qdd, 8.0)):
         difference = (value[2:] - value[:-2]) * rate / 2
         assert np.abs(difference - slope[1:-1]).max() < 2e-3 * scale
     # A jump of the acceleration would show as a step that does not shrink with the sampling.

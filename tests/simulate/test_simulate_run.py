@@ -114,9 +114,8 @@ def test_the_controller_tracks(name):
 
 
 def test_encoders_and_torque_sensors():
-    settings = dataclasses.replace(
-        SHORT, encoder_counts=4096, linear_resolution=1e-5, torque_noise=0.03
-    )
+    coarse = {"encoder_counts": 4096, "linear_resolution": 1e-5, "torque_noise": 0.03}
+    settings = dataclasses.replace(SHORT, **coarse)
     log = simulate(robot(TREE), settings)
     steps = np.array([2 * np.pi / 4096, 1e-5, 2 * np.pi / 4096, 2 * np.pi / 4096])
     counts = log.q / steps
@@ -131,9 +130,8 @@ def test_encoders_and_torque_sensors():
 
 
 def test_ideal_sensors():
-    settings = dataclasses.replace(
-        SHORT, duration=0.5, encoder_counts=0, linear_resolution=0, torque_noise=0
-    )
+    exact = {"encoder_counts": 0, "linear_resolution": 0, "torque_noise": 0}
+    settings = dataclasses.replace(SHORT, duration=0.5, **exact)
     log = simulate(robot(TREE), settings)
     assert np.array_equal(log.q, log.truth.q)
     assert np.array_equal(log.tau[1:], (log.truth.tau[1:] + log.truth.tau[:-1]) / 2)

@@ -17,7 +17,7 @@ from tests.oracles.closed_ways import closed_near, followed, regularity
 from tests.oracles.complex_step import Oracle
 from tests.robot_texts import CRANK
 from tests.robots import LOOPED
-from tests.rotation import rotating
+from tests.rotation import rotating, with_cases
 
 SHARE = 0.45
 """Of home's distance; less than what is promised by what two ways to write a loop differ."""
@@ -42,9 +42,7 @@ def least_share(robot: Robot, q: np.ndarray) -> float:
     return float(least[1:].min() / least[0])
 
 
-@pytest.mark.parametrize(
-    "name", [*LOOPS, *rotating("offset_parallelogram", "3rpr_passive", "rccc_wide")]
-)
+@with_cases("name", *LOOPS, *rotating("offset_parallelogram", "3rpr_passive", "rccc_wide"))
 def test_half_of_homes_distance_is_kept(name: str, request: pytest.FixtureRequest) -> None:
     elsewhere = name not in LOOPED
     path = request.getfixturevalue("loop_robots_folder") / f"{name}.toml" if elsewhere else name

@@ -47,21 +47,10 @@ SPECTRUM = figure.Panel(
     scale="log",
     x_range=(0.1, 10.0),
 )
-CELLS = figure.Panel(
-    "Cells",
-    "coordinate",
-    "joint",
-    (
-        figure.Heat(
-            "share",
-            ("speed", "position"),
-            ("1", "2", "3"),
-            np.array([[10.0, np.nan], [0.0, 90.0], [55.0, 20.0]]),
-            (("10", ""), ("0", "90"), ("55", "20")),
-            100.0,
-        ),
-    ),
-)
+PERCENT = np.array([[10.0, np.nan], [0.0, 90.0], [55.0, 20.0]])
+WRITTEN = (("10", ""), ("0", "90"), ("55", "20"))
+HEAT = figure.Heat("share", ("speed", "position"), ("1", "2", "3"), PERCENT, WRITTEN, 100.0)
+CELLS = figure.Panel("Cells", "coordinate", "joint", (HEAT,))
 EVERY_KIND = figure.Picture(
     "every_kind",
     "Every kind of series",
@@ -71,6 +60,5 @@ EVERY_KIND = figure.Picture(
     heights=(0.4, 0.3, 0.3),
     widths=(0.6, 0.4),
 )
-SHARED = figure.Picture(
-    "shared", "Two rows of one time", "", ((MOTION,), (MOTION,)), 430, True, (0.6, 0.4)
-)
+ROWS = ((MOTION,), (MOTION,))
+SHARED = figure.Picture("shared", "Two rows of one time", "", ROWS, 430, True, (0.6, 0.4))

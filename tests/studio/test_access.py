@@ -137,9 +137,7 @@ CLIMBING = tuple(
 
 def test_no_path_leads_out(studio: Served, cookie: str) -> None:
     page = ask(studio, "/", cookie=cookie).text
-    linked = {
-        matches.rpartition("/")[0] for matches in re.findall(r'(?:href|src)="(/[^"?]+)', page)
-    }
+    linked = {part.rpartition("/")[0] for part in re.findall(r'(?:href|src)="(/[^"?]+)', page)}
     prefixes = {"", "/studio.", "/sheet", "/drop", *linked}
     prefixes |= {f"/_nicegui/3.18.0/{kind}/x" for kind in ("resources", "esm", "libraries")}
     assert len(prefixes) > 7

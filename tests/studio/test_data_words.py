@@ -50,9 +50,8 @@ def drawn_choices(rng, robot):
     for k, joint in enumerate(robot):
         label = str(rng.choice([joint.name, str(k + 1)])) if not alike else str(k + 1)
         actual = (unit, sign) if alike else (str(rng.choice(["", "deg"])), int(rng.choice(signs)))
-        table[f"q{joint.name}"] = ColumnChoice(
-            f"{stem.format(label)}{'' if alike else f' ({k})'}", *actual
-        )
+        column = f"{stem.format(label)}{'' if alike else f' ({k})'}"
+        table[f"q{joint.name}"] = ColumnChoice(column, *actual)
         if rng.random() < 0.7:
             table[f"tau{joint.name}"] = ColumnChoice(f"t={k}:N", str(rng.choice(["N m", "mN m"])))
     return table
@@ -183,9 +182,8 @@ def test_every_instant_has_one_role(timeline: Any, seed: int) -> None:
     left = timeline.assign_role(log, held, "out")
     np.testing.assert_array_equal(inside(left.out, times), out | local)
     assert left.train == log.train
-    np.testing.assert_array_equal(
-        inside(timeline.assign_role(left, held, "in").out, times), out & ~local
-    )
+    assigned = timeline.assign_role(left, held, "in")
+    np.testing.assert_array_equal(inside(assigned.out, times), out & ~local)
 
 
 def test_first_roles(timeline: Any) -> None:

@@ -129,19 +129,14 @@ def test_disk_is_counted_by_what_it_is_for(tmp_path: Path) -> None:
     used = compute_disk_use(tmp_path)
     assert (used["logs"], used["models"], used["results"]) == (12, 3, 0)
     assert used["other"] == 2 and sum(used.values()) == 17
-    assert [format_size(n) for n in (999, 1500, 2.5e9, 3e12)] == [
-        "999 B",
-        "1.5 kB",
-        "2.5 GB",
-        "3 TB",
-    ]
+    sizes = ["999 B", "1.5 kB", "2.5 GB", "3 TB"]
+    assert [format_size(n) for n in (999, 1500, 2.5e9, 3e12)] == sizes
 
 
 def test_tidying_takes_what_no_step_on_the_way_needs(tmp_path: Path) -> None:
     """1 fit, 2 diagnose, 3 add, then back to 1: 4 add; 5 and 6 are about models; 7 never ended."""
-    way = tuple(
-        read_rows("1 0 fit; 2 1 diagnose; 3 1 add; 4 1 add; 5 3 compare; 6 4 compare; 8 0 simulate")
-    )
+    rows = "1 0 fit; 2 1 diagnose; 3 1 add; 4 1 add; 5 3 compare; 6 4 compare; 8 0 simulate"
+    way = tuple(read_rows(rows))
     steps = tuple(Step(number, parent, Task(verb)) for number, parent, verb in way)
     project = Project(robot="robot.toml", current=4, steps=steps)
     for folder in ("robots", "models", "results", "logs"):

@@ -183,9 +183,8 @@ def test_a_stretch_of_a_clock_that_counts_from_1970_keeps_its_ends() -> None:
     from modeler.studio.timeline import describe_roles
 
     begun = 1732600000.25
-    log = ProjectLog(
-        "a.csv", (TimeRange(end=begun + 8.4123),), out=(TimeRange(begun + 3.1, begun + 3.35),)
-    )
+    out = TimeRange(begun + 3.1, begun + 3.35)
+    log = ProjectLog("a.csv", (TimeRange(end=begun + 8.4123),), out=(out,))
     words = [part.command_word for part in log.get_parts("train")]
     assert words == ["a.csv@:1732600003.35", "a.csv@1732600003.6:1732600008.6623"]
     assert describe_roles(log) == (

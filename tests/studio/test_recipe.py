@@ -158,9 +158,7 @@ def test_the_script_makes_the_same_in_an_empty_folder(worked, tmp_path):
     for words in (tmp_path / "words").read_text(encoding="utf-8").split("\0\n")[:-1]:
         assert run_command(fresh, words.split("\0"))[0] == 0, words
     check_same(worked, fresh)
-    there, here = (
-        json.loads((place / "results/2.json").read_text()) for place in (worked.folder, fresh)
-    )
+    there, here = (json.loads((at / "results/2.json").read_text()) for at in (worked.folder, fresh))
     assert there == here  # the same diagnosis
     assert not (fresh / "models/3.json").exists()  # what was set aside is not reported again
     assert before == {p: p.stat().st_mtime_ns for p in worked.folder.rglob("*") if p.is_file()}
@@ -189,10 +187,7 @@ def test_going_back_and_forth_loses_nothing(axis_project):
     folder, place = axis_project, axis_project / "robot.toml"
     with hub_of(folder) as hub:
         fit, added = run_tasks(hub, commands.fit, lambda p: commands.add(p, "spring", "1"))
-        plain, text = (
-            (folder / fit.robot_copy).read_text(encoding="utf-8"),
-            place.read_text("utf-8"),
-        )
+        plain, text = ((folder / fit.robot_copy).read_text("utf-8"), place.read_text("utf-8"))
         assert "spring" in text and "spring" not in plain
         (refit,) = run_tasks(hub, commands.fit, keep=False)
         assert json.loads((folder / refit.model_file).read_text("utf-8"))["robot_text"] == text

@@ -21,6 +21,7 @@ from modeler.robot import (
     set_joint_effect,
 )
 from modeler.studio.robot_views import robot_look
+from tests.rotation import with_cases
 
 
 def others(text: str) -> dict:
@@ -68,16 +69,12 @@ def test_tables_in_one_line_and_with_comments() -> None:
     rows = '  ["1"], # the first, "not a cell", [nor] this\n  ["2"]\n'
     text = f'[mdh]\ncolumns = ["j"]\nrows = [\n{rows}]\n'
     assert find_table_text(text).rows == (("1",), ("2",))
-    assert (
-        "the first" in insert_row(text, 0, ["9"])
-        and find_table_text(insert_row(text, 1, ["9"])).rows[2:]
-    )
+    assert "the first" in insert_row(text, 0, ["9"])
+    assert find_table_text(insert_row(text, 1, ["9"])).rows[2:]
     assert find_table_text(remove_row(text, 0)).rows == (("2",),)
 
 
-@pytest.mark.parametrize(
-    "change", [lambda t: replace_cell(t, 9, 0, "1"), lambda t: remove_row(t, 9)]
-)
+@with_cases("change", lambda t: replace_cell(t, 9, 0, "1"), lambda t: remove_row(t, 9))
 def test_a_row_that_is_not_there_is_told(change) -> None:
     with pytest.raises(RobotError, match=r"\[mdh\]: there is no row 10; edit the file as text"):
         change(read_builtin_robot("demo-arm"))

@@ -191,16 +191,14 @@ def test_a_tie_of_a_diagnosis_becomes_the_words_of_a_motion() -> None:
         {"effect": one, "joint": j, "ties": [{"effect": other, "joint": k}]}
         for one, j, other, k in ties
     ]
-    pairs = dict(
-        find_questions({"effects": [*effects, {"effect": "drift", "joint": "3", "ties": []}]})
-    )
+    drift = {"effect": "drift", "joint": "3", "ties": []}
+    pairs = dict(find_questions({"effects": [*effects, drift]}))
     (between,) = pairs
     assert between == "load_friction@2,spring@2"
     assert pairs[between] == "distinguish load friction on joint 2 from spring on joint 2"
     made = Project("robot.toml", 3, steps=(Step(3, 0, Task("fit")),))
-    parsed = build_parser().parse_args(
-        build_command_words(made, Task("excite", between=between, duration=5.0))
-    )
+    task = Task("excite", between=between, duration=5.0)
+    parsed = build_parser().parse_args(build_command_words(made, task))
     assert (parsed.between, parsed.robot) == (between, "models/3.json")
     assert (parsed.duration, parsed.out) == (5.0, "motions/4.csv")
     first = build_command_words(Project("robot.toml"), Task("excite", duration=2.0))

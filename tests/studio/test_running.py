@@ -53,9 +53,8 @@ def gone(mark: str, seconds: float = 10.0) -> bool:
 
 @pytest.mark.rotating("long tests of studio")
 def test_results_progress_and_seconds(tmp_path: Path) -> None:
-    outcome, seen = run(
-        tmp_path, "simulate", "two-link", "--duration", "2", "--rate", "500", "--out", "a.csv"
-    )
+    words = "simulate two-link --duration 2 --rate 500 --out a.csv"
+    outcome, seen = run(tmp_path, *words.split())
     assert outcome.status == 0 and outcome.error == "" and (tmp_path / "a.csv").exists()
     assert outcome.lines[0].startswith("two-link: 1000 samples")
     assert {"loading", "simulating two-link", "done"} <= {doing for _, doing in seen}
@@ -207,9 +206,8 @@ asyncio.run(main())
 )
 def test_a_command_does_not_outlive_the_studio(tmp_path: Path, number: int) -> None:
     words = [sys.executable, "-c", SERVER, str(tmp_path), *LONG, str(tmp_path / "orphan.csv")]
-    server = subprocess.Popen(
-        words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, start_new_session=True
-    )
+    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+    server = subprocess.Popen(words, **streams, start_new_session=True)
     assert server.stdout is not None and server.stdout.readline() == b"running\n"
     assert len(alive(str(tmp_path))) > 1  # it, and the command
     server.send_signal(number)

@@ -167,9 +167,7 @@ def test_where_it_fails_is_seen_by_joint_and_channel(arm: Path) -> None:
         await page.sees("joint 2: error")
         page.trigger(joints[0], "click")
         await page.sees("Joint 1: measured and predicted")
-        heat = next(
-            one for one in page.every("plotly") if one.figure["data"][0]["type"] == "heatmap"
-        )
+        heat = next(e for e in page.every("plotly") if e.figure["data"][0]["type"] == "heatmap")
         page.trigger(heat, "plotly_click", {"points": [{"x": "load", "y": "2"}]})
         await page.sees("Joint 2: residual over |predicted| x direction of motion [N m]")
         page.change("residual over", "velocity")

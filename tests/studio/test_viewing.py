@@ -175,9 +175,8 @@ def test_torques_are_those_of_the_comparison(comparison) -> None:
     left = below.series[0]
     assert isinstance(left, Curve)
     expected = np.where(p.used, p.measured - p.predicted, np.nan)[rows, 1]
-    np.testing.assert_allclose(
-        left.y[np.isfinite(left.y)], expected[np.isfinite(expected)], rtol=1e-9
-    )
+    finite = (values[np.isfinite(values)] for values in (left.y, expected))
+    np.testing.assert_allclose(*finite, rtol=1e-9)
     assert above.x_range is not None and 3.0 <= above.x_range[0] < above.x_range[1] <= 8.0
     assert {span.label for span in above.spans} == {span.label for span in below.spans}
 

@@ -72,9 +72,7 @@ def test_formulas_are_those_of_the_paper():
     """With cm known: the paper's other seventeen, but for aJ11, whose sign is a misprint."""
     printed = read_printed_terms(model_of("wrist").robot).solutions
     solution = solve(system_of("wrist"), (*SEVEN, "cm"))
-    ours = {
-        step.letter: expression(format_formula(step, solution.system)) for step in solution.steps
-    }
+    ours = {s.letter: expression(format_formula(s, solution.system)) for s in solution.steps}
     assert set(ours) == set(printed) - {"cm"}
     for letter, value in ours.items():
         top, bottom = printed[letter]
@@ -99,9 +97,8 @@ def test_what_does_not_help_is_told(eighth):
     """cm cannot follow from the seven, nor with any of these: the paper's formula is 0/0."""
     solution = solve(system_of("wrist"), (*SEVEN, eighth))
     assert solution.missing == 1
-    assert set(solution.undetermined) == set(
-        "cm ct2 ct3 bt1 cJ11 cJ22 cJ23 bJ11 bJ12 bJ13 bJ22 aJ11".split()
-    )
+    letters = "cm ct2 ct3 bt1 cJ11 cJ22 cJ23 bJ11 bJ12 bJ13 bJ22 aJ11"
+    assert set(solution.undetermined) == set(letters.split())
     assert not set(solution.solved_letters) & set(solution.undetermined)
     first, second = format_missing_lines(solution)
     assert first.startswith("undetermined: aJ11") and "1 more must be known: one of cm, " in second
@@ -184,9 +181,8 @@ def test_quotients_of_lengths_have_names():
     system = system_of("orthoglide-2003")
     assert system.abbreviations["k1"] == "1/D41"
     assert system.constants["k1"] == pytest.approx(1 / 0.31)
-    lines = format_solution_lines(
-        solve(system, [x for x in system.letters if system.kinds[x] == "mass"])
-    )
+    masses = [x for x in system.letters if system.kinds[x] == "mass"]
+    lines = format_solution_lines(solve(system, masses))
     assert lines[0] == "k1 = 1/D41"
 
 
@@ -242,9 +238,8 @@ def check(name: str, known: tuple[str, ...]) -> int:
     if solution.missing:
         rank = find_determined(system, known)[1]
         assert find_determined(system, [*known, solution.undetermined[0]])[1] == rank
-    item = derive_values(
-        solution, data, np.zeros((len(data),) * 2), {x: truth[x] for x in known}, near=truth
-    )
+    exact = np.zeros((len(data),) * 2)
+    item = derive_values(solution, data, exact, {x: truth[x] for x in known}, near=truth)
     assert set(best) == set(solution.solved_letters) == set(item.letters)
     for x, value in best.items():
         assert value == pytest.approx(truth[x], rel=1e-5, abs=1e-5), (x, known)

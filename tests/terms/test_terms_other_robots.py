@@ -40,9 +40,8 @@ def test_combinations_hold_at_a_random_point(name):
     prime, point = draw_random_point(table.physical.names, random.Random(4))
     values = {c.name: evaluate_modulo(c.physical, point, prime) for c in table.coefficients}
     for key, combination in table.relations.combinations.items():
-        total = sum(
-            v.numerator * pow(v.denominator, -1, prime) * values[k] for k, v in combination.items()
-        )
+        terms = ((v.numerator, v.denominator, values[k]) for k, v in combination.items())
+        total = sum(n * pow(d, -1, prime) * value for n, d, value in terms)
         assert (values[key] - total) % prime == 0, key
 
 

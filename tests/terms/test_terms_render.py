@@ -30,22 +30,16 @@ def numbers_of(name: str) -> tuple[dict[str, float], list[float], dict[str, floa
     q = [0.4, -0.7, 1.3][: model.geometry.joint_count]
     values = dict(model.geometry.values)
     for joint, angle in zip(model.robot.moving_joints, q, strict=True):
-        values |= {
-            f"s{joint.name}": sin(angle),
-            f"c{joint.name}": cos(angle),
-            f"q{joint.name}": angle,
-        }
+        label = joint.name
+        values |= {f"s{label}": sin(angle), f"c{label}": cos(angle), f"q{label}": angle}
     chi = {column: 0.1 * (i % 7) - 0.25 for i, column in enumerate(model.names)}
     return {**values, **chi}, q, chi
 
 
 def printed_functions(text: str) -> dict[str, str]:
     blocks = text.split("\n\n")[1:]
-    return {
-        b.split(" =\n")[0].strip(): " ".join(b.split(" =\n")[1].split())
-        for b in blocks
-        if " =\n" in b
-    }
+    parts = [b.split(" =\n") for b in blocks]
+    return {b[0].strip(): " ".join(b[1].split()) for b in parts if len(b) > 1}
 
 
 def expected(name: str) -> dict[str, float]:

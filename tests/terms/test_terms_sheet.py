@@ -18,9 +18,8 @@ def symbols(graph: Graph, *names: str):
 
 
 def formulas(writer: SheetWriter) -> list[str]:
-    return [
-        line for line in format_sheet(writer.build_sheet()).splitlines() if line and line[0] != "#"
-    ]
+    lines = format_sheet(writer.build_sheet()).splitlines()
+    return [line for line in lines if line and line[0] != "#"]
 
 
 def test_what_is_read_once_and_short_is_written_where_it_is_read(graph):

@@ -193,16 +193,11 @@ def test_puma_is_the_published_one():
     pairs: dict[str, list[tuple[float, float]]] = {name: [] for name in PUBLISHED}
     for q in rng.uniform(-3, 3, (20, 6)):
         out = run_lines(lines, known(derivation, q, beta=beta))
+        angles = {"2": q[1], "3": q[2], "23": q[1] + q[2], "4": q[3], "5": q[4]}
         letters = {
             f"{f}{label}": getattr(np, "sin" if f == "S" else "cos")(angle)
             for f in "SC"
-            for label, angle in (
-                ("2", q[1]),
-                ("3", q[2]),
-                ("23", q[1] + q[2]),
-                ("4", q[3]),
-                ("5", q[4]),
-            )
+            for label, angle in angles.items()
         }
         for name, text in PUBLISHED.items():
             pairs[name].append((out[name], eval(text, {}, letters)))
@@ -226,18 +221,16 @@ def test_nonzero_needs_nominal_values():
 
 def printed_columns(derivation, found) -> np.ndarray:
     names = [joint.name for joint in derivation.model.robot.free_joints]
-    return np.array(
-        [[found.get(f"phi{n}_{p.name}", 0.0) for p in derivation.base.parameters] for n in names]
-    )
+    columns = derivation.base.parameters
+    return np.array([[found.get(f"phi{n}_{p.name}", 0.0) for p in columns] for n in names])
 
 
 @pytest.mark.parametrize("name", ["odd", "sr400", "five-bar", *rotating("puma560", "geared")])
 def test_printed_columns_are_those_of_the_c(name):
     """Those of a robot with loops are the tree's, projected."""
     derivation, model = derived(name), compiled(name)
-    lines = format_sheet(
-        derive_regressor_form(derivation.model, derivation.base).sheet
-    ).splitlines()
+    form = derive_regressor_form(derivation.model, derivation.base)
+    lines = format_sheet(form.sheet).splitlines()
     for motion in motions_of(derivation):
         result, _, _, J = ran(derivation, model, lines, motion)
         expected = model.base_regressor(*motion[:, None])[0]

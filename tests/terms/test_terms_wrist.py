@@ -161,9 +161,8 @@ def test_each_misprint_breaks_the_power_balance_and_the_derived_model_does_not(t
 def test_misprinted_definition_and_its_contradiction(table):
     (check,) = find_wrong_definitions(table)
     assert check.name == "PJ5"
-    spoilt = {
-        c.letter: c.verdict for c in check_solutions(table, as_printed=True) if c.verdict != "right"
-    }
+    checks = check_solutions(table, as_printed=True)
+    spoilt = {c.letter: c.verdict for c in checks if c.verdict != "right"}
     assert spoilt.keys() == {"cm", "aJ11", "cJ13"}
 
 
@@ -183,9 +182,8 @@ def test_seventeen_not_eighteen(table):
 def test_two_wrists_with_the_same_coefficients(table):
     check = check_twin(table)
     assert check.equal == 101 and not check.different
-    assert set(check.changed) == set(
-        "cm aJ11 bt1 bJ11 bJ12 bJ13 bJ22 ct2 ct3 cJ11 cJ22 cJ23".split()
-    )
+    letters = "cm aJ11 bt1 bJ11 bJ12 bJ13 bJ22 ct2 ct3 cJ11 cJ22 cJ23"
+    assert set(check.changed) == set(letters.split())
 
 
 def test_a_twin_that_is_none_is_found_out():
