@@ -69,21 +69,17 @@ def test_a_fit_is_that_of_identify(runs: list[Any], rows: Any) -> None:
 
 @pytest.mark.slow  # some seconds
 def test_one_group_a_log(rows: Any) -> None:
-    X, y, groups = rows
+    X, y, logs = rows
     robot = regressor.TorqueRegressor("two-link")
     assert base.is_regressor(robot) and base.clone(robot).get_params() == robot.get_params()
-    scores = selection.cross_val_score(robot, X, y, groups=groups, cv=selection.LeaveOneGroupOut())
+    scores = selection.cross_val_score(robot, X, y, groups=logs, cv=selection.LeaveOneGroupOut())
     assert scores.shape == (3,) and (scores > 0.95).all()
-    out = selection.cross_val_predict(robot, X, y, groups=groups, cv=selection.GroupKFold(3))
-    left = y[groups == 1] - out[groups == 1]
-    r2 = 1.0 - (left**2).sum(axis=0) / ((y[groups == 1] - y[groups == 1].mean(axis=0)) ** 2).sum(
-        axis=0
-    )
+    out = selection.cross_val_predict(robot, X, y, groups=logs, cv=selection.GroupKFold(3))
+    left = y[logs == 1] - out[logs == 1]
+    r2 = 1.0 - (left**2).sum(axis=0) / ((y[logs == 1] - y[logs == 1].mean(axis=0)) ** 2).sum(axis=0)
     assert scores[1] == pytest.approx(r2.mean())
     grid = {"method": ["weighted", "ordinary"]}
-    search = selection.GridSearchCV(robot, grid, cv=selection.GroupKFold(3)).fit(
-        X, y, groups=groups
-    )
+    search = selection.GridSearchCV(robot, grid, cv=selection.GroupKFold(3)).fit(X, y, groups=logs)
     assert search.best_estimator_.model_.fit.method in grid["method"]
 
 

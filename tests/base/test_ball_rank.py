@@ -23,11 +23,9 @@ SEED = 11
 @pytest.mark.parametrize("name", ROBOTS)
 def test_every_built_in_robot_is_certified(name):
     model, base, _ = module(name)
-    result = base.proof.certificate
-    assert isinstance(
-        result, relations.ModularRank if model.closure is None else relations.BallRank
-    )
-    assert result.rank == base.rank == base.proof.numeric_rank and base.proof.kind == "exact"
+    rank = base.proof.certificate
+    assert isinstance(rank, relations.ModularRank if model.closure is None else relations.BallRank)
+    assert rank.rank == base.rank == base.proof.numeric_rank and base.proof.kind == "exact"
     assert base.proof.agreement < 1e-12  # base torque is standard torque
     last, first = base.proof.gap
     assert first < 1e-9 * last

@@ -175,10 +175,8 @@ def random_tree(rng: np.random.Generator) -> dict[str, str | list[dict]]:
         rows.append(
             {"j": str(j), "a": str(a), "sigma": sigma} | {k: str(x) for k, x in cells.items()}
         )
-        for letter, value in zip(
-            ("al", "ga", "d", "b", "r"), rng.uniform(0.2, 0.7, 5), strict=True
-        ):
-            symbols += f"{letter}{j} = {value:.3f}\n"
+        for name, value in zip(("al", "ga", "d", "b", "r"), rng.uniform(0.2, 0.7, 5), strict=True):
+            symbols += f"{name}{j} = {value:.3f}\n"
     gravity = rng.choice(['[0, 0, "-g"]', '["g", 0, 0]', '["g", "0.5*g", "-g"]', "[0, 0, 0]"])
     every = ("rotor_inertia", "viscous", "coulomb", "offset")
     effects = "".join(f'{e} = "all"\n' for e in every if rng.random() < 0.4)

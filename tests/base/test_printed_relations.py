@@ -85,10 +85,8 @@ def _at_letters(value: sympy.Expr) -> sympy.Expr:
 @given(st.lists(coefficients(), min_size=1, max_size=3), st.booleans())
 def test_any_coefficient_is_printed_as_it_is(found, halves):
     terms = (Term(sympy.Integer(1), "ZZ2"), *(Term(c, f"M{i}") for i, c in enumerate(found)))
-    parameter = BaseParameter("ZZ2R", 0, terms, halves)
-    text, latex = (
-        write(parameter).split(" = ")[1] for write in (format_relation, format_relation_latex)
-    )
+    one = BaseParameter("ZZ2R", 0, terms, halves)
+    text, latex = (write(one).split(" = ")[1] for write in (format_relation, format_relation_latex))
     for i, coefficient in enumerate(found):
         values = LETTERS | {term.parameter: 0.0 for term in terms} | {f"M{i}": 0.7}
         wanted = 0.7 * float(_at_letters(coefficient))

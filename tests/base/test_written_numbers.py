@@ -83,15 +83,11 @@ def test_closed_forms_show_what_was_written():
         'rows = [["1", 0, 0, "q1"], ["2", 0.35, 0.4318, "q2"]]',
         "flat.toml",
     )
-    derivation = derive(robot)
-    closed = formulas.derive_closed_form(derivation.model, derivation.base)
-    sheet = formulas.derive_equation(
-        derivation.model, derivation.base, motion=True, columns=True
-    ).sheet
-    table = formulas.coefficients.build_coefficient_table(derivation.model, derivation.base)
-    text, latex = (
-        formulas.coefficients.format_closed_form(closed, way) for way in ("text", "latex")
-    )
+    derived = derive(robot)
+    form = formulas.derive_closed_form(derived.model, derived.base)
+    sheet = formulas.derive_equation(derived.model, derived.base, motion=True, columns=True).sheet
+    table = formulas.coefficients.build_coefficient_table(derived.model, derived.base)
+    text, latex = (formulas.coefficients.format_closed_form(form, way) for way in ("text", "latex"))
     rows = [
         " ".join(row[3:])
         for row in formulas.coefficients.format_table_lines(table)

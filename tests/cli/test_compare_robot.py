@@ -22,15 +22,12 @@ def urdf(mass: float = 3.0, friction: str = "") -> str:
     """Two joints about y; only the upper arm differs."""
     links = [("upper", mass, 0.15), ("fore", 1.5, 0.1)]
     bodies = [f'<link name="{n}">{INERTIAL.format(mass=m, centre=c)}</link>' for n, m, c in links]
-    joint = (
+    tag = (
         '<joint name="{0}" type="revolute"><parent link="{1}"/><child link="{2}"/>'
         '<origin xyz="{3} 0 0"/><axis xyz="0 1 0"/>'
         '<limit lower="-2" upper="2" velocity="3" effort="80"/>' + friction + "</joint>"
     )
-    joints = [
-        joint.format("shoulder", "base", "upper", 0),
-        joint.format("elbow", "upper", "fore", 0.3),
-    ]
+    joints = [tag.format("shoulder", "base", "upper", 0), tag.format("elbow", "upper", "fore", 0.3)]
     return f'<robot name="duo"><link name="base"/>{"".join(bodies + joints)}</robot>'
 
 
@@ -117,9 +114,6 @@ def test_every_method_takes_a_converted_robot(folder, capsys, method: str) -> No
 
 
 def test_python_takes_a_robot_as_well(folder) -> None:
-    robot, model = open_robot("arm.urdf"), identify("arm.urdf", "run.csv")
-    assert compare(robot, "run.csv").relative_error > 10.0 * model.fit.relative_error
-    assert compare_models({"before": robot, "after": model}, ["run.csv"]).names == (
-        "before",
-        "after",
-    )
+    arm, model = open_robot("arm.urdf"), identify("arm.urdf", "run.csv")
+    assert compare(arm, "run.csv").relative_error > 10.0 * model.fit.relative_error
+    assert compare_models({"before": arm, "after": model}, ["run.csv"]).names == ("before", "after")

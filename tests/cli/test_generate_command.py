@@ -93,10 +93,8 @@ def test_a_model_that_is_not_usable_is_written_and_told(fitted, capsys, tmp_path
     err = {}
     for name, judged in (("bad", verdict), ("unjudged", None)):
         save_model(tmp_path / "m.json", changed(fitted, verdict=judged))
-        status, _, err[name] = run(
-            capsys, "generate", tmp_path / "m.json", "--out", tmp_path / name
-        )
-        assert status == 0
+        code, _, err[name] = run(capsys, "generate", tmp_path / "m.json", "--out", tmp_path / name)
+        assert code == 0
     bad, unjudged = ((tmp_path / n / "two_link_fitted.h").read_text() for n in err)
     assert err["bad"] == "modeler: the fit of this model is not valid: joint 2 is not described\n"
     assert "* WARNING. The fit of this model is not valid: joint 2 is not desc" in bad

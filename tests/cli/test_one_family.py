@@ -125,11 +125,8 @@ def test_an_option_may_be_cut_short() -> None:
 
 
 def test_methods_are_one_or_several() -> None:
-    assert (
-        parser.Methods("all").is_several
-        and parser.Methods("iv,ridge").is_several
-        and not parser.Methods("tls").is_several
-    )
+    assert parser.Methods("all").is_several
+    assert parser.Methods("iv,ridge").is_several and not parser.Methods("tls").is_several
 
 
 @with_cases(

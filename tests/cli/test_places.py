@@ -131,10 +131,8 @@ def test_an_input_is_never_an_output(workdir, capsys, command, option, name, wha
 
 @pytest.mark.parametrize("command", ["fit", "compare", "derive"])
 def test_two_outputs_are_two_files(workdir, capsys, command) -> None:
-    outputs = [
-        action for name, action in actions() if name == command and is_a(action, places.Output)
-    ]
-    first, second = (action.option_strings[0] for action in outputs[:2])
+    outputs = [entry for name, entry in actions() if name == command and is_a(entry, places.Output)]
+    first, second = (entry.option_strings[0] for entry in outputs[:2])
     Path("alias").symlink_to("same.html")  # which is not there yet
     words = READING[command].split()
     if first in words:

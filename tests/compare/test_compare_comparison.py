@@ -68,9 +68,7 @@ def test_whole_is_the_stacked_joints() -> None:
 def test_summary_has_units_and_every_joint() -> None:
     text = compare(by_hand()).summary()
     assert "100 %" in text and "2.89 N" in text and "13.00 s of a.csv" in text
-    first = [
-        line.split()[0] for line in compare(prediction(rows=1500)).summary().splitlines() if line
-    ]
+    first = [row.split()[0] for row in compare(prediction(rows=1500)).summary().splitlines() if row]
     assert first == ["joint", "1", "2", "3", "all", "R2,", "log", "one.parquet", "two.parquet"]
 
 

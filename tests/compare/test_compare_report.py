@@ -220,10 +220,8 @@ def test_pictures_as_files(small: Comparison, tmp_path: Path) -> None:
 
 
 def test_svg_is_the_same_twice() -> None:
-    panel = Panel(
-        "t", "x [s]", "y [m]", (Heat("h", ("a",), ("b",), np.ones((1, 1)), (("1",),), 2),)
-    )
-    picture = Picture("p", "p", "c", ((panel,),), 200)
+    heat = Panel("t", "x [s]", "y [m]", (Heat("h", ("a",), ("b",), np.ones((1, 1)), (("1",),), 2),))
+    picture = Picture("p", "p", "c", ((heat,),), 200)
     assert figure_matplotlib.render_images(picture) == figure_matplotlib.render_images(picture)
     assert format_csv(picture).splitlines()[1:] == ["t,h,a / b,1,"]
 
@@ -276,14 +274,12 @@ def made() -> Prediction:
         masks[400 * k + 100 : 400 * k + 160, 0] = k
     used = masks < 0
     used[2200:2250, 0] = False  # for no reason of its own
-    segment = whole.segment.copy()
-    segment[1500:] += 1
+    piece = whole.segment.copy()
+    piece[1500:] += 1
     time = whole.time.copy()
     time[1500:] += 0.7
     sigma = 0.05 + 0.02 * np.abs(whole.qd)
-    return dataclasses.replace(
-        whole, masks=masks, used=used, segment=segment, time=time, sigma=sigma
-    )
+    return dataclasses.replace(whole, masks=masks, used=used, segment=piece, time=time, sigma=sigma)
 
 
 @pytest.fixture(scope="module")

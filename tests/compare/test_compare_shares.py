@@ -71,14 +71,11 @@ def check(p: Prediction, method: str, known: float, tolerance: float) -> None:
     repeated = float(np.mean((known * np.sin(p.q @ WAVES)) ** 2))
     for item in compare(p).joints:
         total = float(np.var(p.measured[:, item.index]))
-        result = item.shares
-        assert result is not None and result.method == method
-        assert (
-            result.explained_share + result.systematic_share + result.noise_share
-            == pytest.approx(1.0)
-        )
-        assert result.systematic_share == pytest.approx(repeated / total, abs=tolerance / total)
-        assert result.noise_share == pytest.approx(NOISE**2 / total, abs=tolerance / total)
+        one = item.shares
+        assert one is not None and one.method == method
+        assert one.explained_share + one.systematic_share + one.noise_share == pytest.approx(1.0)
+        assert one.systematic_share == pytest.approx(repeated / total, abs=tolerance / total)
+        assert one.noise_share == pytest.approx(NOISE**2 / total, abs=tolerance / total)
 
 
 @pytest.mark.parametrize(
@@ -211,16 +208,10 @@ def test_a_wrong_sign_or_scale_is_one_sentence(factor: float, words: str) -> Non
 
 
 def test_a_missing_effect_is_no_wrong_scale() -> None:
-    for defect in (
-        lambda q, qd, qdd, tau, t: 3.0 * np.sign(qd),
-        lambda q, qd, qdd, tau, t: 2.0 * qd,
-    ):
-        item = compare(prediction(defect, rows=1500)).joints[1]
-        assert (
-            item.scale is not None
-            and not item.scale.has_wrong_factor
-            and not item.scale.has_opposite_sign
-        )
+    for lack in (lambda q, qd, qdd, tau, t: 3.0 * np.sign(qd), lambda q, qd, qdd, tau, t: 2.0 * qd):
+        item = compare(prediction(lack, rows=1500)).joints[1]
+        assert item.scale is not None
+        assert not item.scale.has_wrong_factor and not item.scale.has_opposite_sign
 
 
 def test_scale_by_hand() -> None:

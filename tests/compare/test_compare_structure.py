@@ -152,12 +152,10 @@ def test_what_else_is_said_of_a_residual(defect, noise: float, rows: int, words:
 def test_share_is_that_of_unseen_blocks() -> None:
     """A function that holds in the first half only is not repeatable."""
     x = np.tile(np.linspace(-1.0, 1.0, 500), 8)
-    everywhere = np.sin(3.0 * x)
-    reversing = everywhere * np.where(np.arange(x.size) < 2000, 1.0, -1.0)
+    whole = np.sin(3.0 * x)
+    reversing = whole * np.where(np.arange(x.size) < 2000, 1.0, -1.0)
     fold = np.arange(x.size) * 8 // x.size
-    assert (
-        fit_nonparametric_baseline([("x", build_hat_functions(x))], everywhere, fold).share > 0.98
-    )
+    assert fit_nonparametric_baseline([("x", build_hat_functions(x))], whole, fold).share > 0.98
     assert fit_nonparametric_baseline([("x", build_hat_functions(x))], reversing, fold).share == 0.0
 
 
@@ -371,13 +369,8 @@ def lab(colour: str, eye: str) -> np.ndarray:
 @pytest.mark.parametrize("eye", list(_SEEN))
 def test_colours_of_one_panel_are_told_apart_by_every_eye(eye: str) -> None:
     """A difference of 20 in L*a*b* is seen at a glance; just noticeable is about 2."""
-    together = [
-        (BLUE, VERMILLION, SLATE),
-        (BLUE, VERMILLION, GREY),
-        (BLACK, ORANGE),
-        (BLUE, ORANGE),
-    ]
-    for colours in together:
+    shared = [(BLUE, VERMILLION, SLATE), (BLUE, VERMILLION, GREY), (BLACK, ORANGE), (BLUE, ORANGE)]
+    for colours in shared:
         for k, one in enumerate(colours):
             for other in colours[k + 1 :]:
                 assert np.linalg.norm(lab(one, eye) - lab(other, eye)) > 20.0, (one, other)

@@ -112,16 +112,14 @@ def test_units_follow_from_what_is_read(case: Case) -> None:
 def test_the_hidden_equation_is_the_first_with_its_value(found: Diagnosis) -> None:
     """No effect of the catalogue is stated in its place."""
     assert found.verdict in ("closest description", "unexplained")
-    first = first_of(found)
-    (equation,) = first.definition["columns"].values()
+    best = first_of(found)
+    (equation,) = best.definition["columns"].values()
     assert sorted(equation.split("*")) == ["load", "v"]
-    value, sigma = (
-        next(iter(x.values())) for x in (first.finding.parameters, first.finding.sigmas)
-    )
+    value, sigma = (next(iter(x.values())) for x in (best.finding.parameters, best.finding.sigmas))
     assert abs(value - CHURN) < 0.1 * CHURN and 0.0 < sigma < 0.1 * CHURN
-    assert first.finding.error_after < 0.3 * first.finding.error_before
-    assert first.definition["unit"] == "s/rad" and first.explained_share > 0.9
-    assert "viscous" in first.difference and "times the load" in first.difference
+    assert best.finding.error_after < 0.3 * best.finding.error_before
+    assert best.definition["unit"] == "s/rad" and best.explained_share > 0.9
+    assert "viscous" in best.difference and "times the load" in best.difference
 
 
 def test_every_symbol_has_its_price(found: Diagnosis) -> None:

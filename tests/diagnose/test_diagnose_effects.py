@@ -62,16 +62,14 @@ def test_a_hidden_effect_is_named_with_its_values(case: Case, effect: str) -> No
 def test_one_effect_alone_has_the_errors_of_its_joint_and_what_other_looks_say(case: Case) -> None:
     """Same rows, same weights; looks in the fields that scripts read too."""
     result = case.found(spring)
-    (first,) = [*result.effects, *result.refinements]
+    (best,) = [*result.effects, *result.refinements]
     joint = result.joints["3"]
-    assert first.error_before == pytest.approx(joint.error_before)
-    assert first.error_after == pytest.approx(joint.error_after)
-    held_out, band = first.cross_checks
+    assert best.error_before == pytest.approx(joint.error_before)
+    assert best.error_after == pytest.approx(joint.error_after)
+    held_out, band = best.cross_checks
     assert held_out.label == "in the held-out logs" and band.label.startswith("up to")
-    assert band.variance_reduction > 0.5 and first.warning == "" and first.status != "possible"
-    assert all(
-        look.agrees and look.leading_effect == ("spring", "3") for look in first.cross_checks
-    )
+    assert band.variance_reduction > 0.5 and best.warning == "" and best.status != "possible"
+    assert all(look.agrees and look.leading_effect == ("spring", "3") for look in best.cross_checks)
     data = result.to_json()
     leads = data["effects"][0]["splits"][0]["leading_effect"]
     assert leads == {"effect": "spring", "joint": "3"} and data["joints"].keys() == {"1", "2", "3"}
@@ -91,9 +89,7 @@ def test_effects_that_fail_on_held_out_motion_are_not_named(case: Case) -> None:
     model, train, _ = case.hidden(spring)
     diagnosis = diagnose(model, case.compiled, [train], [case.holdout])
     assert ("spring", "3") not in {(f.effect, f.joint) for f in diagnosis.effects}
-    assert ("spring", "3") in {
-        judged.candidate.key for judged in diagnosis.search.vetoed_candidates
-    }
+    assert ("spring", "3") in {one.candidate.key for one in diagnosis.search.vetoed_candidates}
     (lines,) = [line for line in diagnosis.sentences if line.startswith("not named: spring at")]
     assert "that of motion left out does not fall significantly" in lines
 
@@ -201,6 +197,4 @@ def test_what_has_changed_is_told(case: Case, name: str) -> None:
     assert f"{first.name}: {first.before:.4g} +- " in "\n".join(format_lines(result))
     said = result.to_json()["machine_changed"][0]
     assert {"name", "before", "after", "sigma_before", "sigma_after", "unit"} <= set(said)
-    assert not any(
-        "generate" in line for line in suggest_after_diagnosis("m", ["a"], ["b"], result)
-    )
+    assert not any("generate" in row for row in suggest_after_diagnosis("m", ["a"], ["b"], result))

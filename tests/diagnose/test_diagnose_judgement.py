@@ -68,16 +68,14 @@ def test_a_joint_that_slides_has_no_lever_and_no_disc(case: Case) -> None:
 
 
 def test_signs_and_sizes_that_physics_forbids() -> None:
-    for effect, can_be, cannot in (
+    for law, can_be, cannot in (
         ("encoder_offset", (0.19, -0.19), (0.21, -0.21)),
         ("rotor_inertia", (30.0,), (-0.1,)),
         ("offset", (-30.0,), ()),
         ("load_friction", (0.45,), (0.97,)),
     ):
-        assert all(is_possible(candidate(effect), np.array([value])) for value in can_be), effect
-        assert not any(is_possible(candidate(effect), np.array([value])) for value in cannot), (
-            effect
-        )
+        assert all(is_possible(candidate(law), np.array([value])) for value in can_be), law
+        assert not any(is_possible(candidate(law), np.array([value])) for value in cannot), law
 
 
 @pytest.mark.parametrize(("error", "said"), [(1.4, "cannot tell"), (0.9, "nothing significant")])

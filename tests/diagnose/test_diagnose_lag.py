@@ -79,9 +79,8 @@ def test_a_pure_delay_is_no_filter(case: Case) -> None:
     result = case.found(DELAY2)
     assert all(f.status != "confirmed" for f in result.effects)
     assert not stated_friction(result)
-    assert (
-        "a pure delay of 2" in result.sentences[0] and "describes it better" in result.sentences[0]
-    )
+    assert "a pure delay of 2" in result.sentences[0]
+    assert "describes it better" in result.sentences[0]
 
 
 @pytest.mark.rotating("diagnoses of simulated runs")

@@ -55,12 +55,8 @@ def test_ur10e_the_errors_fall_as_effects_are_added(ur10e_model: IdentifiedModel
     model, (training, held_out) = ur10e_model, logs("ur10e")
     compiled = load_compiled(model.spec, model.sources)
     data = LogSplit(read_logs(compiled, training), read_logs(compiled, held_out))
-    for effect, joint in (
-        ("load_friction", "2"),
-        ("load_friction", "3"),
-        ("nonlinear_viscous", "1"),
-    ):
-        model = add_effect(model, load_compiled(model.spec, model.sources), effect, joint, data)
+    for law, joint in (("load_friction", "2"), ("load_friction", "3"), ("nonlinear_viscous", "1")):
+        model = add_effect(model, load_compiled(model.spec, model.sources), law, joint, data)
     errors = {j.joint.name: j.relative_error for j in compare(model, held_out).joints}
     assert errors["1"] < 0.07 and errors["2"] < 0.018 and errors["3"] < 0.016
 

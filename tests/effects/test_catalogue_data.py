@@ -18,15 +18,13 @@ def test_an_effect_of_the_catalogue_is_whole(effect: Effect) -> None:
     assert all(find_effect(other) for other in effect.equivalent_effects)
     assert effect.sign in (-1, 0, 1)
     for form in effect.forms:
-        assert {shape.scale for shape in form.nonlinear_parameters} <= SCALES.keys() - {"own"}
-        assert all(
-            low <= high for low, high in (shape.limits for shape in form.nonlinear_parameters)
-        )
-        if all(shape.grid for shape in form.nonlinear_parameters):
+        assert {part.scale for part in form.nonlinear_parameters} <= SCALES.keys() - {"own"}
+        assert all(low <= high for low, high in (part.limits for part in form.nonlinear_parameters))
+        if all(part.grid for part in form.nonlinear_parameters):
             check_finite(form, TomlCell(effect.id))
         else:  # its waves are found in the spectrum
             check_finite(
-                form, TomlCell(effect.id), {shape.name: 7.0 for shape in form.nonlinear_parameters}
+                form, TomlCell(effect.id), {part.name: 7.0 for part in form.nonlinear_parameters}
             )
 
 

@@ -38,10 +38,8 @@ Fs2 = 2.0
 
 def written() -> list[tuple[Effect, int]]:
     """Every form of every effect on a joint that a robot file may name."""
-    named = [
-        effect for effect in CATALOGUE if effect.can_be_stated and effect.acts is EffectTarget.JOINT
-    ]
-    return [(effect, k) for effect in named for k in range(len(effect.forms))]
+    named = [law for law in CATALOGUE if law.can_be_stated and law.acts is EffectTarget.JOINT]
+    return [(law, k) for law in named for k in range(len(law.forms))]
 
 
 def text_with(effect: Effect, form: int) -> str:

@@ -101,10 +101,10 @@ def test_an_equation_reads_the_motion_of_other_joints(precision):
     robot = arm_with("leaning", {"columns": columns, "shapes": {"w": [0.5, 1]}}, {"w": 0.8})
     derivation = derive(robot)
     assert derivation.base.proof.kind == "exact"
-    compiled = loaded(generate(derivation, precision=precision))
+    arm = loaded(generate(derivation, precision=precision))
     q, v, a = np.random.default_rng(13).uniform(-2.0, 2.0, (3, SAMPLES, 3))
-    phi = compiled.regressor(q, v, a)
-    got = columns_of(robot, "leaning", compiled, phi)
+    phi = arm.regressor(q, v, a)
+    got = columns_of(robot, "leaning", arm, phi)
     wanted = np.column_stack(
         [
             v[:, 1] * np.exp(-((q[:, 2] / 0.8) ** 2)),
@@ -116,12 +116,10 @@ def test_an_equation_reads_the_motion_of_other_joints(precision):
     )
     np.testing.assert_allclose(got[:, JOINT], wanted, **close)
     assert not np.delete(got, JOINT, axis=1).any()
-    place = [b.name for b in compiled.spec.base].index("Kl2")
-    np.testing.assert_allclose(
-        compiled.base_regressor(q, v, a)[:, JOINT, place], wanted[:, 0], **close
-    )
-    one = np.eye(len(compiled.spec.base))[place]
-    friction = compiled.friction(v, one, q=q, qdd=a)
+    place = [b.name for b in arm.spec.base].index("Kl2")
+    np.testing.assert_allclose(arm.base_regressor(q, v, a)[:, JOINT, place], wanted[:, 0], **close)
+    one = np.eye(len(arm.spec.base))[place]
+    friction = arm.friction(v, one, q=q, qdd=a)
     np.testing.assert_allclose(friction[:, JOINT], wanted[:, 0], **close)
 
 

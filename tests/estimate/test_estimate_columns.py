@@ -34,10 +34,8 @@ def test_merged_triangles_have_the_singular_values_of_all_rows():
     W = left * np.geomspace(1.0, 1e-10, len(names)) @ right.T
     y = W @ rng.standard_normal(len(names)) + 1e-3 * rng.standard_normal(count)
     joint = np.arange(count) % 2
-    pieces = np.split(np.arange(count), [3, 4, 4, 150])
-    parts = [
-        least_squares.compress_rows(W[item], y[item], joint[item], 2, names) for item in pieces
-    ]
+    cuts = np.split(np.arange(count), [3, 4, 4, 150])
+    parts = [least_squares.compress_rows(W[item], y[item], joint[item], 2, names) for item in cuts]
     result = reduce(least_squares.merge_compressed, parts)
     assert result.rows.tolist() == [200, 200]
     for j in range(2):
@@ -46,8 +44,6 @@ def test_merged_triangles_have_the_singular_values_of_all_rows():
         actual = result.triangles[j]
         assert np.allclose(actual, np.triu(actual))
         # The squares of 1e-10 are lost in W^T W beside 1; they are kept here.
-        difference = np.linalg.svd(actual, compute_uv=False) - np.linalg.svd(
-            stacked, compute_uv=False
-        )
-        assert np.abs(difference).max() < 1e-14 * norm
+        gap = np.linalg.svd(actual, compute_uv=False) - np.linalg.svd(stacked, compute_uv=False)
+        assert np.abs(gap).max() < 1e-14 * norm
         assert np.abs(actual.T @ actual - stacked.T @ stacked).max() < 1e-14 * norm**2

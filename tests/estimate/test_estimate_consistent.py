@@ -83,10 +83,8 @@ def test_mujoco_takes_the_bodies_and_gives_the_same_torques():
     whole = np.linalg.qr(np.column_stack([W, y]) / sigma, mode="r")
     fit = solve_consistent(define_physical_parameters(model.spec), whole, {})
     bodies = [Body(*about_centre(body)) for body in fit.bodies.values()]
-    nothing = np.zeros(3)
-    theirs = mujoco.MjModel.from_xml_string(
-        mjcf(Arm(arm.table, tuple(bodies), nothing, nothing, nothing))
-    )
+    none = np.zeros(3)
+    theirs = mujoco.MjModel.from_xml_string(mjcf(Arm(arm.table, tuple(bodies), none, none, none)))
     theirs.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
     data = mujoco.MjData(theirs)
     for k in range(10):

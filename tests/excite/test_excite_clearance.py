@@ -138,26 +138,24 @@ def test_the_slope_of_distances_is_their_derivative(arm):
 )
 def test_a_motion_keeps_links_apart_at_all_times_and_costs_little(arm, family, tmp_path):
     robot, compiled, bounds = arm
-    motion = design_motion(compiled, bounds, MotionRequest(6.0, 3, "condition", 1, family=family))
-    fine = motion.series.resample_at(np.linspace(0.0, 6.0, 201)).evaluate_motion(motion.x)[0]
+    path = design_motion(compiled, bounds, MotionRequest(6.0, 3, "condition", 1, family=family))
+    fine = path.series.resample_at(np.linspace(0.0, 6.0, 201)).evaluate_motion(path.x)[0]
     seen = [oracle(robot, q) for q in fine]
     rest = {
         bounds.clearance.solids.get_pair_names(k) for k in range(len(bounds.clearance.solids.pairs))
     }
     least = min(each[pair] for each in seen for pair in rest)
-    assert 0.01 <= motion.closest_approach.bound <= least + 1e-9
-    assert motion.closest_approach.bound > motion.closest_approach.distance - 2e-4
-    assert motion.closest_approach.distance - 2e-4 < least < motion.closest_approach.distance + 0.01
-    at = oracle(robot, np.array(list(motion.closest_approach.posture.values())))
-    assert at[motion.closest_approach.pair] == pytest.approx(
-        motion.closest_approach.distance, abs=1e-6
-    )
-    assert motion.quality.condition < motion.random[0]
+    assert 0.01 <= path.closest_approach.bound <= least + 1e-9
+    assert path.closest_approach.bound > path.closest_approach.distance - 2e-4
+    assert path.closest_approach.distance - 2e-4 < least < path.closest_approach.distance + 0.01
+    at = oracle(robot, np.array(list(path.closest_approach.posture.values())))
+    assert at[path.closest_approach.pair] == pytest.approx(path.closest_approach.distance, abs=1e-6)
+    assert path.quality.condition < path.random[0]
     place = tmp_path / "m.csv"
-    place.write_text(format_csv(motion.sample_motion(200.0)))
+    place.write_text(format_csv(path.sample_motion(200.0)))
     result = check_motion(robot, place)
-    assert result.pair == motion.closest_approach.pair
-    assert result.distance == pytest.approx(motion.closest_approach.distance, abs=2e-5)
+    assert result.pair == path.closest_approach.pair
+    assert result.distance == pytest.approx(path.closest_approach.distance, abs=2e-5)
 
 
 def test_what_comes_near_between_samples_is_seen(arm):
@@ -198,9 +196,8 @@ def test_the_command_checks_a_motion_and_draws_the_nearest_two(arm, tmp_path, ca
     assert main([*words, "--clearance", "0", "--json", str(tmp_path / "c.json")]) == 0
     message = json.loads((tmp_path / "c.json").read_text())["clearance"]
     near = check_motion(arm[0], place, clearance=0.0)
-    assert message["margin"] == 0 and message["closest_approach"]["distance"] == pytest.approx(
-        near.distance
-    )
+    assert message["margin"] == 0
+    assert message["closest_approach"]["distance"] == pytest.approx(near.distance)
 
 
 @pytest.mark.rotating("long tests of excite")
@@ -208,9 +205,8 @@ def test_loops_are_kept_clear_too():
     result, compiled = built_in("five-bar")
     bounds = build_bounds(result, compiled, {}, {}, 0.02)
     motion = design_motion(compiled, bounds, MotionRequest(6.0, 3, starts=1, time_limit=0.3))
-    assert motion.closest_approach.bound >= 0.02 and len(motion.closest_approach.posture) > len(
-        bounds.joints
-    )
+    assert motion.closest_approach.bound >= 0.02
+    assert len(motion.closest_approach.posture) > len(bounds.joints)
 
 
 @with_cases(

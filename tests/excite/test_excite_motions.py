@@ -98,25 +98,23 @@ def test_loops_close_all_along_away_from_singular_postures(name):
             f"{joint.name}={at - 2.5},{at + 2.5},3,12"
             for joint, at in zip(compiled.spec.joints, home, strict=True)
         )
-    compiled, bounds = limits_of(name, limits)
-    motion = design_motion(compiled, bounds, MotionRequest(6.0, 4, starts=1))
+    compiled, box = limits_of(name, limits)
+    motion = design_motion(compiled, box, MotionRequest(6.0, 4, starts=1))
     q, *_ = finely(motion)
     constraints = closing.build_constraints(values)
     away = closing.compute_singularity_distances(
         constraints, closing.compute_closed_postures(values, constraints, q)
     )
     home = closing.compute_singularity_distances(
-        constraints, closing.compute_closed_postures(values, constraints, bounds.home[None, :])
+        constraints, closing.compute_closed_postures(values, constraints, box.home[None, :])
     )[0]
     assert away.min() > 0.05 * home
-    assert_not_faster(values, constraints, q, bounds)
+    assert_not_faster(values, constraints, q, box)
     assert motion.usage.loops < 1.0 and motion.quality.condition < motion.random[0]
-    assert np.all(q <= bounds.upper) and np.all(q >= bounds.lower)
+    assert np.all(q <= box.upper) and np.all(q >= box.lower)
     if name == "five-bar":  # its limits alone would lead it through a singular posture
         rng = np.random.default_rng(0)
-        corners = bounds.mid_range + bounds.half_range * rng.uniform(
-            -0.95, 0.95, (200, len(bounds.lower))
-        )
+        corners = box.mid_range + box.half_range * rng.uniform(-0.95, 0.95, (200, len(box.lower)))
         assert np.count_nonzero(compiled.closing_status(corners))
 
 
@@ -140,13 +138,11 @@ def test_the_objectives_do_what_they_are_called():
 
 def test_a_noisy_joint_counts_less():
     """Weighted rows: of a joint with tenfold noise the information is a hundredth."""
-    compiled, bounds = limits_of("two-link")
+    emitted, bounds = limits_of("two-link")
     sigma = np.array([1.0, 10.0])
-    task = build_task(compiled, bounds, MotionRequest(4.0, 3), sigma, None, None)
+    task = build_task(emitted, bounds, MotionRequest(4.0, 3), sigma, None, None)
     x = draw_random_motion(task, np.random.default_rng(0))
-    W = compiled.observation(*task.series.evaluate_motion(x)).reshape(
-        -1, 2, len(compiled.spec.base)
-    )
+    W = emitted.observation(*task.series.evaluate_motion(x)).reshape(-1, 2, len(emitted.spec.base))
     weighted = (W / sigma[:, None]).reshape(-1, W.shape[2])
     assert np.allclose(task.compute_rows(task.series.evaluate_motion(x)), weighted)
 

@@ -26,10 +26,8 @@ def test_choices_words_and_functions_are_the_same_list():
     ("robust", "windows", "--method robust: the energy model takes weighted or ordinary; leav"),
 )
 def test_what_an_estimator_does_not_work_on_is_refused(method, of, sentence):
-    assert (
-        find_estimator_title("weighted") == "weighted least squares"
-        and find_estimator_title("magic") == "magic"
-    )
+    assert find_estimator_title("weighted") == "weighted least squares"
+    assert find_estimator_title("magic") == "magic"
     assert find_methods(of) == (tuple(METHODS) if of == "rows" else ("weighted", "ordinary"))
     assert find_method("ordinary", of) is METHODS["ordinary"]
     with pytest.raises(DataError, match=sentence):

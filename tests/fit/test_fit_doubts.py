@@ -122,11 +122,9 @@ def test_a_joint_that_stands_still_leaves_the_prediction(log):
     fit = observed_fit(dataclasses.replace(log, q=q, tau=tau))[1]
     verdict, aside = fit.verdict, [p for p in fit.parameters if p.status == "set aside"]
     assert fit.status == "rank deficient" and aside
-    for parameter in aside:
-        assert parameter.value == 0.0 and parameter.sigma is None and not parameter.essential
-        assert any(
-            line.startswith(parameter.name) and "set aside" in line for line in fit.format_lines()
-        )
+    for one in aside:
+        assert one.value == 0.0 and one.sigma is None and not one.essential
+        assert any(line.startswith(one.name) and "set aside" in line for line in fit.format_lines())
     assert verdict.valid_for != "parameters"
     assert any("record a motion that moves all joints" in line for line in verdict.warnings)
     assert verdict.by_joint["1"].state == "undetermined"

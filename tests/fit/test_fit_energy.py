@@ -91,11 +91,7 @@ def test_the_result_says_how_it_compares_with_the_torque_model(arm, fitted):
     fit = fitted[1]
     report = fit.result.energy
     torque, energy, coarse = report.figures
-    assert [item.model for item in report.figures] == [
-        "torque",
-        "energy, Simpson",
-        "energy, trapezoid",
-    ]
+    assert [f.model for f in report.figures] == ["torque", "energy, Simpson", "energy, trapezoid"]
     assert torque.condition_scaled < energy.condition_scaled
     assert torque.torque_sigma < energy.torque_sigma and torque.rows > energy.rows
     (first, *_) = report.sentences

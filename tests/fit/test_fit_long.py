@@ -91,7 +91,7 @@ def test_a_log_in_chunks_gives_the_fit_of_the_whole_log(logged, cutoff):
     """To 1e-9 of sigma: what the position filter forgot beyond a margin is 3e-13 of the motion."""
     processing = Processing(parallel_cutoff=cutoff)
     log = in_phase(noisy_log(logged=logged), processing)
-    whole, chunked, report, report_of_chunks = both(log, processing)
+    whole, chunked, report, in_chunks = both(log, processing)
     np.testing.assert_allclose((chunked.beta - whole.beta) / sigmas(whole), 0.0, atol=1e-6)
     np.testing.assert_allclose(chunked.covariance, whole.covariance, rtol=1e-6)
     assert chunked.rows == whole.rows and chunked.samples == whole.samples
@@ -100,12 +100,10 @@ def test_a_log_in_chunks_gives_the_fit_of_the_whole_log(logged, cutoff):
     assert 2 <= chunked.reading["chunks"] <= -(-log.rows // ROWS)
     assert chunked.reading["passes"] == 1
     more = ("samples", "derivatives", "decimation", "contradicted", "span")
-    assert_same_counts(report, report_of_chunks, *more)
-    assert [j.format_line() for j in report.joints] == [
-        j.format_line() for j in report_of_chunks.joints
-    ]
-    assert report.processing == report_of_chunks.processing
-    assert any("chunks" in line for line in report_of_chunks.format_lines()[:4])
+    assert_same_counts(report, in_chunks, *more)
+    assert [j.format_line() for j in report.joints] == [j.format_line() for j in in_chunks.joints]
+    assert report.processing == in_chunks.processing
+    assert any("chunks" in line for line in in_chunks.format_lines()[:4])
 
 
 def test_gaps_holes_limits_spikes_and_segments_across_borders_are_as_in_the_whole_log():

@@ -63,10 +63,8 @@ def test_a_simulated_arm_comes_back_within_its_sigmas(fitted):
         assert joint.rms == pytest.approx(np.sqrt(np.mean(residual[mask] ** 2)))
         expected = np.linalg.norm(residual[mask]) / np.linalg.norm(seen.y[mask])
         assert joint.relative_error == pytest.approx(expected)
-    raw, text = (
-        json.loads(json.dumps(fit.to_json(), allow_nan=False)),
-        "\n".join(fit.format_lines()),
-    )
+    raw = json.loads(json.dumps(fit.to_json(), allow_nan=False))
+    text = "\n".join(fit.format_lines())
     assert set(raw["joints"]) == {"1", "2"} and raw["samples"] == len(seen.time)
     assert "relative error" in text and "joint 2:" in text
 

@@ -19,10 +19,10 @@ from tests.modules import compiled, module
 )
 def test_a_simulated_robot_with_passive_joints_comes_back(name, tmp_path):
     """Truth of the simulation, not of the fit: 30 to 50 values, each within its sigmas."""
-    symbolic, base, emitted = module(name)
+    symbolic, base, arm = module(name)
     run = simulate(symbolic.robot, SimulationSettings(duration=6.0, seed=1))
     write_log(tmp_path / "run.csv", run)
-    fit = identify(observe(compiled(name), [read_log(tmp_path / "run.csv", emitted.spec)]))
+    fit = identify(observe(compiled(name), [read_log(tmp_path / "run.csv", arm.spec)]))
     chi = np.array([run.truth.parameters[parameter] for parameter in symbolic.names])
     beta = build_grouping_matrix(symbolic, base.parameters) @ chi
     assert fit.status == "ok" and fit.relative_error < 0.01
@@ -30,9 +30,7 @@ def test_a_simulated_robot_with_passive_joints_comes_back(name, tmp_path):
     # Sensor errors in W and y: the share of values beyond 2 sigma is small, none is far off.
     errors = np.abs(fit.beta - beta) / sigma
     assert np.mean(errors > 2.0) < 0.2 and errors.max() < 5.0
-    passive = [
-        j for j, spec in zip(fit.joints, emitted.spec.joints, strict=True) if not spec.actuated
-    ]
+    passive = [j for j, spec in zip(fit.joints, arm.spec.joints, strict=True) if not spec.actuated]
     assert passive and all(j.relative_error is None and 0 < j.rms < j.sigma for j in passive)
 
 

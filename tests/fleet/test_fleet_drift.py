@@ -113,17 +113,12 @@ def test_a_temperature_that_moves_along_is_told() -> None:
     scene = Scene(machines=4, periods=5, planted=(Planted(0, "Fv2", plan),), warm=True)
     warm = summaries(scene, 3)
     cold = [dataclasses.replace(each, temperatures={}) for each in warm[5:]]
-    [together], [alone] = (
-        analyse_fleet(spec, logs).findings for logs in (warm, [*warm[:5], *cold])
-    )
-    assert (
-        alone.temperature is not None
-        and alone.temperature.is_correlated
-        and alone.temperature.is_shared is None
-    )
+    [both], [alone] = (analyse_fleet(spec, logs).findings for logs in (warm, [*warm[:5], *cold]))
+    assert alone.temperature is not None
+    assert alone.temperature.is_correlated and alone.temperature.is_shared is None
     assert "may be the cause: compare periods of one temperature" in describe_finding(alone, "days")
-    assert together.temperature is not None and together.temperature.is_shared is False
-    assert "but machines that warm alike do not change so" in describe_finding(together, "days")
+    assert both.temperature is not None and both.temperature.is_shared is False
+    assert "but machines that warm alike do not change so" in describe_finding(both, "days")
     leap = dataclasses.replace(scene, machines=1, planted=(Planted(0, "Fv2", (0.0,) * 4 + (0.4,)),))
     [sudden] = analyse_fleet(spec, summaries(leap, 3)).findings
     assert (
@@ -163,10 +158,8 @@ def test_a_log_that_is_left_out_and_a_short_fleet_are_told() -> None:
     left = SkippedLog(LogName("r1", "day9", "r1/day9.csv"), "r1/day9.csv: damaged")
     fleet = analyse_fleet(compiled().spec, [*inputs, late, left])
     lines = "\n".join(format_fleet(fleet))
-    assert (
-        fleet.skipped_logs == (("r1/day9.csv", "r1/day9.csv: damaged"),)
-        and "left out: r1/day9" in lines
-    )
+    assert fleet.skipped_logs == (("r1/day9.csv", "r1/day9.csv: damaged"),)
+    assert "left out: r1/day9" in lines
     assert "r9: one period, so a drift of its own cannot be seen" in lines
     assert "3 machines: an outlier among fewer than 5 is not reported" in lines
     assert fleet.verdict == "nothing drifts" and fleet.logs == 7

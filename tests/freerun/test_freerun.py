@@ -151,12 +151,10 @@ def test_loops_are_run_too(five_bar) -> None:
 @pytest.mark.rotating("free runs of simulated machines")
 def test_a_loop_that_cannot_close_ends_a_run(five_bar) -> None:
     model, compiled, log = five_bar
-    plant = FittedPlant(compiled, model.beta)
+    arm = FittedPlant(compiled, model.beta)
     q, far = log.q[:1], np.array([50.0, 50.0])
     tau = np.tile([400.0, -400.0], (1000, 1, 1))  # tears it apart
-    path = simulate_batch(
-        plant, RobotBatch(q, 0.0 * q, tau, None, 0.002, far, np.zeros_like(tau)), 1
-    )
+    path = simulate_batch(arm, RobotBatch(q, 0.0 * q, tau, None, 0.002, far, np.zeros_like(tau)), 1)
     assert np.isfinite(path[0]).all() and np.isnan(path[-1]).all()
 
 
@@ -181,10 +179,8 @@ def test_errors_of_an_upright_pendulum_grow_at_that_rate() -> None:
     """Two runs that start 1e-6 rad apart, simulated."""
     model, log = pendulum(True)
     compiled = compile(model)
-    plant, rate = (
-        FittedPlant(compiled, model.beta),
-        simulate_free_run(model, [log], compiled).stability.rate,
-    )
+    plant = FittedPlant(compiled, model.beta)
+    rate = simulate_free_run(model, [log], compiled).stability.rate
     q = np.array([[0.0], [1e-6]])
     tau, around = (np.repeat(values[:200, None], 2, axis=1) for values in (log.tau, log.q))
     lanes = RobotBatch(q, np.full((2, 1), log.qd[0, 0]), tau, None, STEP, np.ones(1), around)

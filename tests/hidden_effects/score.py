@@ -189,11 +189,9 @@ def _told(sensor, said, blamed, named):
     words, joint = SENSORS[sensor["kind"]].words, sensor.get("joint")
     if not words:
         return None
-    lines = [
-        line for line in said.get("data_warnings", ()) if not joint or f"joint {joint}" in line
-    ]
+    lines = [row for row in said.get("data_warnings", ()) if not joint or f"joint {joint}" in row]
     by_name = any(is_it(effect, key) for effect in blamed for key in named)
-    return by_name or any(word in line for word in words for line in lines)
+    return by_name or any(word in row for word in words for row in lines)
 
 
 def failed(case: str, truth: Mapping[str, Any], error: str, withheld: bool = False) -> Score:

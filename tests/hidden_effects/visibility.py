@@ -123,12 +123,10 @@ def regression(plant, run, delay, effects):
     a = rate(v)
     columns = _links(plant, q, v, a)
     for name, joints in effects.items():
-        values = {"viscous": v, "coulomb": np.sign(v), "rotor_inertia": a}.get(
-            name, np.ones_like(v)
-        )
+        value = {"viscous": v, "coulomb": np.sign(v), "rotor_inertia": a}.get(name, np.ones_like(v))
         for j in joints:
             column = np.zeros_like(v)
-            column[:, j] = values[:, j]
+            column[:, j] = value[:, j]
             columns.append(column)
     last = butter(4, 30, fs=1000, output="sos")
     filtered = [sosfiltfilt(last, x, axis=0)[KEPT] for x in (*columns, logged_torque(run, delay))]

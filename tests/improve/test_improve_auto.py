@@ -63,11 +63,9 @@ def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(case, sprun
 def test_what_is_not_needed_beside_all_the_rest_is_taken_out_again(case, sprung, monkeypatch):
     wide = added_model.is_unneeded
     monkeypatch.setattr(module, "is_unneeded", lambda m, s: s.effect == "spring" or wide(m, s))
-    better, left_out = add_findings(
-        sprung.model, case.compiled, sprung.diagnosis.effects, sprung.logs
-    )
+    better, taken = add_findings(sprung.model, case.compiled, sprung.diagnosis.effects, sprung.logs)
     assert "spring" not in {step.effect for step in better.history}
-    assert any("spring, joint 3 (with the others in, none of its values" in s for s in left_out)
+    assert any("spring, joint 3 (with the others in, none of its values" in s for s in taken)
 
 
 def test_an_effect_is_needed_unless_all_of_its_values_are_below_their_sigmas(sprung):

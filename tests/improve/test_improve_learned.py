@@ -33,12 +33,8 @@ def test_the_error_falls_and_physics_stays(case: Case, tmp_path: Path) -> None:
     save_model(tmp_path / "m.json", api.add(fitted, "learned", [train], [holdout], joint="2"))
     better = load_model(tmp_path / "m.json")
     first, last = better.history
-    assert (
-        last.error < 0.25 * first.error
-        and last.is_improvement
-        and last.is_learned
-        and not last.warning
-    )
+    assert last.error < 0.25 * first.error
+    assert last.is_improvement and last.is_learned and not last.warning
     assert (last.effect, last.joint) == ("learned_2", "2")
     assert last.shifts_in_sigmas and max(last.shifts_in_sigmas.values()) < 2.0
     physics, law = better.error_reduction_shares or (0.0, 0.0)

@@ -81,9 +81,7 @@ class _Drawing:
     def close(self, name: str, on: str, frame: str, kind: str) -> None:
         """The fixed row `name` where `frame` is, in the drawn posture, and the loop there."""
         tree = Oracle(parse_robot_text(self.text(), "drawn"))
-        frames = tree.frames(
-            np.array([self.home[joint.variable] for joint in tree.robot.free_joints])
-        )
+        frames = tree.frames(np.array([self.home[row.variable] for row in tree.robot.free_joints]))
         (R, p), (S, o) = ((x[0][0], x[1][0]) for x in (frames[frame], frames[on]))
         R, p = self._freed(R, p, kind)
         cells = placed(S.T @ R, S.T @ (p - o))

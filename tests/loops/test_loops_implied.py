@@ -154,10 +154,8 @@ def test_relations_are_true_at_any_lengths(name):
 
 def written(model, base):
     """Relations of joints and of parameters, in letters."""
-    terms = [
-        (p.name, [(t.parameter, str(t.coefficient)) for t in p.terms]) for p in base.parameters
-    ]
-    return {n: e.text for n, e in model.robot.relations.items()}, terms
+    sums = [(p.name, [(t.parameter, str(t.coefficient)) for t in p.terms]) for p in base.parameters]
+    return {n: e.text for n, e in model.robot.relations.items()}, sums
 
 
 @with_cases(

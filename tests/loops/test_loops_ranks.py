@@ -120,12 +120,10 @@ def test_coefficients_may_be_sums_and_quotients():
     text = text.replace("b3 = -0.04 ", "al = -1.2\nr3 = 0.05\nb3 = -0.04 ")
     base = derive_base_parameters(derive_model(parse_robot_text(text, "leg")))
     assert base.proof.kind == "exact"
-    terms = {
-        t.parameter: t.coefficient for p in base.parameters for t in p.terms if p.name == "ZZ2R"
-    }
+    row = {t.parameter: t.coefficient for p in base.parameters for t in p.terms if p.name == "ZZ2R"}
     al, r3, D4 = (sympy.Symbol(n, real=True) for n in ("al", "r3", "D4"))
     expected = sympy.sin(al) ** 2 * (r3**2 + D4**2)
-    assert sympy.simplify(terms["M4"] - expected) == 0
+    assert sympy.simplify(row["M4"] - expected) == 0
 
 
 def test_what_cancels_over_the_legs_is_not_written():

@@ -62,10 +62,8 @@ def test_the_json_tells_cut_offs_and_noise(noisy):
         assert item["band_hz"] < item["noise_crossover_hz"] < 30.0
         assert len(item["frequency"]) == len(item["spectrum"]) > 10
     # no joint's noise makes more torque at the parallel filter than is left of it
-    crossings = [
-        (local["torque_noise"] / local["noise_torque"]) ** 0.25 for local in result["noise"]
-    ]
-    assert result["parallel_cutoff"] <= 1.1 * min(crossings)
+    corners = [(local["torque_noise"] / local["noise_torque"]) ** 0.25 for local in result["noise"]]
+    assert result["parallel_cutoff"] <= 1.1 * min(corners)
 
 
 def test_a_log_tells_the_same_with_its_robot_and_the_noise_without(noisy):
@@ -142,6 +140,4 @@ def test_where_nothing_can_be_told_nothing_is_drawn(tmp_path, columns):
     noise = estimate_position_noise(seen.positions)
     assert noise is None or [line.endswith("rests") for line in noise.format_channels()] == [True]
     assert not any(picture.name == "noise_of_the_motion" for picture in draw_log_pictures(seen))
-    assert "Noise of the motion" not in [
-        item.title for item in build_log_page(seen, [], []).sections
-    ]
+    assert "Noise of the motion" not in [one.title for one in build_log_page(seen, [], []).sections]

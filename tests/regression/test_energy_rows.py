@@ -23,10 +23,8 @@ def log_of(name: str, rate: float, seconds: float = 1.0) -> Log:
     """Sines about home, exact derivatives, torques of ones."""
     model = compiled(name)
     joints = len(model.spec.joints)
-    closure = model.spec.closure
-    middle = (
-        np.zeros(joints) if closure is None else np.asarray(closure.home)[list(closure.actuated)]
-    )
+    loops = model.spec.closure
+    middle = np.zeros(joints) if loops is None else np.asarray(loops.home)[list(loops.actuated)]
     t = np.arange(round(seconds * rate) + 1) / rate
     w = 2 * np.pi * np.linspace(0.8, 1.7, joints)
     angle = t[:, None] * w + np.arange(joints)

@@ -53,11 +53,9 @@ def switched(rate=100):
 
 
 def noisy(columns, q=0.0, qd=0.0, qdd=0.0):
-    random = np.random.default_rng(4)
+    rng = np.random.default_rng(4)
     t, *values = columns
-    return t, *(
-        v + s * random.normal(size=v.shape) for v, s in zip(values, (q, qd, qdd), strict=True)
-    )
+    return t, *(v + s * rng.normal(size=v.shape) for v, s in zip(values, (q, qd, qdd), strict=True))
 
 
 def rounded(columns, q=1e-9, qd=1e-9, qdd=1e-9):

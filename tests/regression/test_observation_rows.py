@@ -135,9 +135,7 @@ def test_a_joint_that_never_moves_keeps_its_rows_and_has_no_friction():
     log = Log("a", ("1", "2"), t, q, np.ones_like(q), qd, qdd)
     seen = observe(planar_arm(), [log])
     assert seen.used[:, 0].any() and seen.used[:, 1].all()
-    assert any(
-        "rows; it never moves: its friction is" in line for line in seen.report.format_lines()
-    )
+    assert any("rows; it never moves: its friction is" in row for row in seen.report.format_lines())
     friction = [k for k, name in enumerate(seen.names) if name.startswith("F") and name[-1] == "2"]
     assert friction and not seen.columns[..., friction].any()
     assert observe(planar_arm(friction=False), [log]).used.all()

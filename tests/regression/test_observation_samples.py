@@ -68,9 +68,8 @@ def test_pieces_end_at_gaps_and_segment_changes():
     assert not any(p.resampled for p in pieces) and report.jitter < 1e-9
     marked = log_of(np.arange(100) * 0.01, segment=np.repeat([0, 1, 2], [40, 57, 3]))
     pieces, report = split_log(marked, 0, False)
-    assert [len(p.time) for p in pieces] == [40, 57] and report.short == pytest.approx(
-        [0.97, 0.98, 0.99]
-    )
+    assert [len(p.time) for p in pieces] == [40, 57]
+    assert report.short == pytest.approx([0.97, 0.98, 0.99])
 
 
 def test_short_losses_are_bridged_and_marked_long_ones_cut():
@@ -135,11 +134,9 @@ def test_logged_derivatives_are_taken_as_asked():
     processing = Processing(position_cutoff=50.0)
     both = build_segment(split_log(log, 0, True)[0][0], processing)
     assert np.all(both.qd == 7.0) and np.all(both.qdd == 9.0) and both.whole.all()
-    velocity = build_segment(
-        split_log(dataclasses.replace(log, qdd=None), 0, True)[0][0], processing
-    )
-    np.testing.assert_allclose(velocity.qd, 7.0)
-    np.testing.assert_allclose(velocity.qdd, 0.0, atol=1e-6)
+    speed = build_segment(split_log(dataclasses.replace(log, qdd=None), 0, True)[0][0], processing)
+    np.testing.assert_allclose(speed.qd, 7.0)
+    np.testing.assert_allclose(speed.qdd, 0.0, atol=1e-6)
     differentiated = build_segment(split_log(log, 0, False)[0][0], processing)
     assert np.max(np.abs(differentiated.qd)) < 5.0
 
@@ -172,10 +169,8 @@ def cutoffs_of(processing, *pieces):
 
 def rings_of(log):
     """Joints of a log that ring."""
-    pieces, _ = split_log(log, 0, False)
-    return prepare.find_ringing_joints(
-        prepare.compute_spectra(pieces), [0.0] * len(log.joints), pieces
-    )
+    cuts, _ = split_log(log, 0, False)
+    return prepare.find_ringing_joints(prepare.compute_spectra(cuts), [0.0] * len(log.joints), cuts)
 
 
 def ringing_log(share, hertz, of=0.3):
@@ -222,12 +217,8 @@ def test_automatic_cutoffs_follow_the_motion(hertz, rate, position, parallel):
     assert chosen.position_cutoff == pytest.approx(position, rel=0.05)
     assert chosen.parallel_cutoff == pytest.approx(parallel, rel=0.05)
     inputs = Processing(position_cutoff=40.0, parallel_cutoff=7.0)
-    stored = cutoffs_of(inputs, piece)[0]
-    assert (stored.position_cutoff, stored.parallel_cutoff, stored.automatic_cutoffs) == (
-        40.0,
-        7.0,
-        (),
-    )
+    read = cutoffs_of(inputs, piece)[0]
+    assert (read.position_cutoff, read.parallel_cutoff, read.automatic_cutoffs) == (40.0, 7.0, ())
     assert chosen.automatic_cutoffs == ("position_cutoff", "parallel_cutoff")
     assert cutoffs_of(chosen, piece)[0] == chosen
 
@@ -381,13 +372,11 @@ def test_the_floor_is_the_density_of_white_noise(rate, size):
 def test_a_finer_encoder_hides_the_motion_later():
     time = np.arange(20000) / 1000.0
     counts = [2**12, 2**16, 2**20]
-    values = [
+    items = [
         noise_found(np.round(smooth(time) * n / (2 * np.pi)) * (2 * np.pi / n), 1e3) for n in counts
     ]
-    assert (
-        values[0].noise_crossover_hz < values[1].noise_crossover_hz < values[2].noise_crossover_hz
-    )
-    for item, n in zip(values, counts, strict=True):
+    assert items[0].noise_crossover_hz < items[1].noise_crossover_hz < items[2].noise_crossover_hz
+    for item, n in zip(items, counts, strict=True):
         step = 2 * np.pi / n
         assert item.step == pytest.approx(step, rel=1e-6)
         assert item.deviation == pytest.approx(step / np.sqrt(12.0), rel=0.4)

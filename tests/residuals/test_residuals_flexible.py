@@ -85,10 +85,8 @@ def test_a_row_is_predicted_from_others() -> None:
     other = y.copy()
     other[where] = other[where][::-1]
     sets = [*generate_function_sets(m)]
-    first, second = (
-        fit_nonparametric_baseline(sets, r, fold()).prediction[where] for r in (y, other)
-    )
-    np.testing.assert_allclose(first, second, atol=1e-5)
+    one, two = (fit_nonparametric_baseline(sets, r, fold()).prediction[where] for r in (y, other))
+    np.testing.assert_allclose(one, two, atol=1e-5)
 
 
 def test_the_set_that_suffices_is_told_and_the_answer_is_the_same_twice() -> None:

@@ -55,16 +55,14 @@ def par_of(robot: Robot, letters: bool) -> str:
         return f"{expression.evaluate(values):.5g}"
 
     columns: dict[str, list[str]] = {}
-    for joint in robot.joints:
-        number = joint.name
+    for row in robot.joints:
+        number = row.name
         for key, column in read_rows("B b; d d; R r; gamma gamma; Alpha alpha; Theta theta"):
-            text = cell(
-                getattr(joint, column), joint.variable if joint.is_moving else None, f"t{number}"
-            )
+            text = cell(getattr(row, column), row.variable if row.is_moving else None, f"t{number}")
             columns.setdefault(key, []).append(text)
-        columns.setdefault("Ant", []).append(joint.antecedent)
-        columns.setdefault("Sigma", []).append(str(int(joint.kind)))
-        columns.setdefault("Mu", []).append(str(int(joint.actuated)))
+        columns.setdefault("Ant", []).append(row.antecedent)
+        columns.setdefault("Sigma", []).append(str(int(row.kind)))
+        columns.setdefault("Mu", []).append(str(int(row.actuated)))
     gravity = [e.text if letters else f"{e.evaluate(values):.5g}" for e in robot.gravity]
     lists = {key: ",".join(cells) for key, cells in columns.items()} | {"G": ",".join(gravity)}
     return par_text(lists, robot.name, links, joints)

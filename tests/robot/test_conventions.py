@@ -211,10 +211,8 @@ def robot_of(book):
         values = {"g": 9.81, "D3": A2, "R3": D3, "D4": -A3, "R4": D4}
         assert robot.evaluate_symbols() | {"D4": -A3} == pytest.approx(values)
         return robot
-    names, ways = (
-        ["j", "alpha", "a", "d", "theta"],
-        [[*row, f"q{k}"] for k, row in enumerate(rows, 1)],
-    )
+    names = ["j", "alpha", "a", "d", "theta"]
+    ways = [[*row, f"q{k}"] for k, row in enumerate(rows, 1)]
     if convention == "classical":
         names, ways = ["j", "theta", "d", "a", "alpha"], [[x, *row] for *row, x in ways]
     table = [[f"{k}", *way] for k, way in enumerate(ways, 1)]
@@ -241,15 +239,13 @@ def test_puma_of_four_books_has_the_same_torques():
     rng = np.random.default_rng(1986)
     bodies = [random_body(rng) for _ in range(6)]  # in the shoulder's frame, all at Craig's 0
     q, qd, qdd = rng.normal(size=(3, 10, 6))
-    by_book = {}
+    taus = {}
     for book, (_, zero, _) in BOOKS.items():
         frames_and_bodies = zip(link_frames(book, zero), bodies, strict=True)
         chi = np.concatenate([ten_at(np.linalg.inv(one), body) for one, body in frames_and_bodies])
-        by_book[book] = torques(derive_model(robot_of(book)), chi, q + zero, qd, qdd)
-    for book, tau in by_book.items():
-        np.testing.assert_allclose(
-            tau, by_book["craig"], atol=1e-11 * np.abs(tau).max(), err_msg=book
-        )
+        taus[book] = torques(derive_model(robot_of(book)), chi, q + zero, qd, qdd)
+    for book, tau in taus.items():
+        np.testing.assert_allclose(tau, taus["craig"], atol=1e-11 * np.abs(tau).max(), err_msg=book)
     # A sign or offset forgotten would be seen.
     shifted = link_frames("corke", [0, math.pi, 0, 0, 0, 0])
     assert not np.allclose(shifted[2], link_frames("craig", [0] * 6)[2])

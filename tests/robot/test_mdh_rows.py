@@ -166,10 +166,8 @@ def test_nearly_parallel_axes_keep_their_accuracy(tilt):
         pose, torque = errors(tree, rng)
         assert pose < 2e-9  # an angle within 1e-9 of a right one is one
         assert torque < 2e-9
-        table, ways = (
-            mdh_rows.build_mdh_table(collect_moving_links(tree)),
-            [np.abs(j.pose.position) for j in tree.joints],
-        )
+        table = mdh_rows.build_mdh_table(collect_moving_links(tree))
+        ways = [np.abs(j.pose.position) for j in tree.joints]
         most = THRESHOLDS.max_foot_distance_ratio * 3 * (max(map(np.max, ways)) or 1.0)
         for row in table.rows:
             assert max(abs(row.cells.get(c, 0.0)) for c in "bdr") < most
@@ -180,9 +178,8 @@ def test_numbers_are_exact_where_they_are():
     assert mdh_rows.snap_length(1 / 3) == 1 / 3
     assert mdh_rows.snap_angle(3 * math.pi / 2) == -math.pi / 2
     assert mdh_rows.snap_angle(-math.pi) == mdh_rows.snap_angle(math.pi) == math.pi
-    assert (
-        mdh_rows.snap_angle(0.7) == 0.7 and mdh_rows.snap_angle(math.pi / 12 + 1e-8) != math.pi / 12
-    )
+    assert mdh_rows.snap_angle(0.7) == 0.7
+    assert mdh_rows.snap_angle(math.pi / 12 + 1e-8) != math.pi / 12
     rng = np.random.default_rng(5)
     for angles in [*rng.uniform(-3, 3, (20, 3)), (0.3, math.pi / 2, 0.4), (1.0, -math.pi / 2, 2)]:
         R = pin.rpy.rpyToMatrix(*map(float, angles))

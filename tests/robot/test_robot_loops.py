@@ -17,15 +17,15 @@ def test_a_shared_name_must_be_free():
 
 
 def test_what_is_written_once_stands_for_every_leg():
-    robot = parse_robot_text(PLANAR, "planar.toml")
-    names = [joint.name for joint in robot.joints]
+    legs = parse_robot_text(PLANAR, "planar.toml")
+    names = [joint.name for joint in legs.joints]
     assert names == ["Px", "Py", "P", "11", "12", "21", "31", "22", "32", "7"]
-    assert [loop.frame for loop in robot.loops] == ["31", "32"]
-    assert robot.home["12"] == 2.2 and robot.parameters["M12"] == 0.5
-    assert next(u for u in robot.effects if u.effect == "coulomb").joints == (
+    assert [loop.frame for loop in legs.loops] == ["31", "32"]
+    assert legs.home["12"] == 2.2 and legs.parameters["M12"] == 0.5
+    assert next(u for u in legs.effects if u.effect == "coulomb").joints == (
         *"11 12 21 22".split(),
     )
-    assert next(u for u in robot.effects if u.effect == "viscous").joints == ("11", "12")
+    assert next(u for u in legs.effects if u.effect == "viscous").joints == ("11", "12")
 
 
 def test_coordinates_are_the_actuated_joints():

@@ -31,9 +31,8 @@ def test_the_good_file_is_read():
     assert eddy.columns[0].nonnegative and not wave.columns[0].nonnegative
     assert [c.unit_revolute for c in (*eddy.columns, *wave.columns)] == ["N*m*s/rad", "SI", "rad"]
     assert wave.acts is EffectTarget.POSITION and not wave.forms[0].free_parameters
-    assert (
-        hook.forms[0].internal_state is not None and hook.forms[0].internal_state.parameter == "d"
-    )
+    assert hook.forms[0].internal_state is not None
+    assert hook.forms[0].internal_state.parameter == "d"
     assert all(effect.can_be_stated for effect in robot.own_effects)
     assert robot.parameters == {"Keb2": 3.0, "Kh1": 1.0, "M1": 2.0}
 

@@ -212,9 +212,8 @@ def test_what_is_not_carried_over_is_told(lists, line, message):
 def test_fixed_frames_carry_nothing():
     lists = {"Ant": "0,1", "Sigma": "0,2", "Theta": "t1,0", "d": "0,0.3", "M": "3,2", "XX": "1,0"}
     robot, converted = convert(par_text(lists))
-    assert [joint.name for joint in robot.moving_joints] == [
-        "1"
-    ] and not robot.parameters.keys() & {"M2"}
+    assert [joint.name for joint in robot.moving_joints] == ["1"]
+    assert not robot.parameters.keys() & {"M2"}
     assert any("parameters of frame 2 are left out" in note for note in converted.notes)
 
 

@@ -36,10 +36,8 @@ def test_all_of_them_leaves_the_platform_out() -> None:
     text = replace_effects(read_robot("delta").text, {"passive_friction": "all"})
     robot = parse_robot_text(text, "delta")
     rubbing = joints_of(text)["viscous"]
-    expected = [
-        j.name for j in robot.moving_joints if not j.actuated and j.name not in robot.platform
-    ]
-    assert list(rubbing) == expected and robot.platform
+    names = [j.name for j in robot.moving_joints if not j.actuated and j.name not in robot.platform]
+    assert list(rubbing) == names and robot.platform
 
 
 def test_a_robot_whose_joints_all_have_motors_has_none() -> None:

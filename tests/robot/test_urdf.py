@@ -211,12 +211,10 @@ def test_locked_joints_lump_their_bodies():
 
 def test_followers_with_an_offset_stop_with_their_leader():
     """By a relation in the text, which is gone where the leader is locked."""
-    ratio, offset, at = np.random.default_rng().uniform(-1, 1, 3).round(3).tolist()
-    text = edited(ARM, ('multiplier="-2" offset="0.01"', f'multiplier="{ratio}" offset="{offset}"'))
+    ratio, shift, at = np.random.default_rng().uniform(-1, 1, 3).round(3).tolist()
+    text = edited(ARM, ('multiplier="-2" offset="0.01"', f'multiplier="{ratio}" offset="{shift}"'))
     robot = parse_robot_text(convert_tree(cut_tree(read(text)), "arm.urdf").text, "arm.toml")
-    assert robot.relations["4"].evaluate({"q3": at}) == pytest.approx(
-        ratio * at + offset, abs=1e-15
-    )
+    assert robot.relations["4"].evaluate({"q3": at}) == pytest.approx(ratio * at + shift, abs=1e-15)
     made = convert_tree(cut_tree(read(text), locks={"finger": at}), "arm.urdf")
     assert not parse_robot_text(made.text, "arm.toml").relations
 
@@ -279,9 +277,8 @@ INERTIA = 'ixx="0.001" ixy="0" ixz="0" iyy="0.001" iyz="0" izz="0.001"'
 def test_doubted_bodies_are_told(mass: str, inertia: str, message: str):
     text = edited(ARM, (INERTIA, inertia), ('mass value="0.5"', f'mass value="{mass}"'))
     tree = cut_tree(read(text))
-    assert message in tree.unreliable_bodies.get("flange", "") and bool(message) == bool(
-        tree.unreliable_bodies
-    )
+    assert message in tree.unreliable_bodies.get("flange", "")
+    assert bool(message) == bool(tree.unreliable_bodies)
     notes = [note for note in notes_of(text) if '"flange"' in note and "move as one" not in note]
     if message and message != "mass 0":
         assert len(notes) == 1 and message in notes[0]

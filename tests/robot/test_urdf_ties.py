@@ -240,10 +240,8 @@ def test_frames_that_meet_stand_where_the_file_has_them(kind: str, seed: int) ->
     tree = read(urdf(*chain, loop, *map(DRIVES, ("j1", "j2", "j3"))))
     robot = parse_robot_text(convert_tree(tree, "arm.urdf").text, "arm.toml")
     q = dict(zip(("j1", "j2", "j3"), rng.uniform(-2, 2, 3), strict=True))
-    rows, bodies = (
-        frames(robot, dict(zip("123", q.values(), strict=True))),
-        compute_body_poses(tree, q),
-    )
+    rows = frames(robot, dict(zip("123", q.values(), strict=True)))
+    bodies = compute_body_poses(tree, q)
     axis = axis / np.linalg.norm(axis)
     for k, link in enumerate("bc"):
         local = origin_pose(places[k], turns[k])
@@ -296,10 +294,8 @@ def test_gears_of_actuator_and_joint_are_their_own(inner: str, expected: float) 
 
 
 def test_transmissions_of_several_joints_are_told() -> None:
-    motors = "".join(
-        f'<actuator name="m{k}">{ROTOR}</actuator><joint name="j{k}"/>' for k in (1, 2)
-    )
-    text = urdf(*TREE, f'<transmission name="wrist">{motors}</transmission>')
+    parts = "".join(f'<actuator name="m{k}">{ROTOR}</actuator><joint name="j{k}"/>' for k in (1, 2))
+    text = urdf(*TREE, f'<transmission name="wrist">{parts}</transmission>')
     assert 'several joints are left out, rotors too; [motors] states such: "wrist"' in notes_of(
         text
     )

@@ -169,10 +169,9 @@ def test_opposite_axes_are_not_closed() -> None:
     row = '["9",  "8",  0,    0,       0,       '
     text = edited(read_builtin_robot("sr400"), (row + "0, ", row + '"pi", '))
     skeleton = build_skeleton(parse_robot_text(text, "sr400"))
-    posture = find_home_posture(skeleton)
-    assert not posture.is_closed and compute_gaps(skeleton, posture.u)[0].angle == pytest.approx(
-        np.pi
-    )
+    pose = find_home_posture(skeleton)
+    assert not pose.is_closed
+    assert compute_gaps(skeleton, pose.u)[0].angle == pytest.approx(np.pi)
 
 
 @pytest.mark.parametrize("name", ROBOTS)

@@ -38,10 +38,8 @@ def what_is_learned(own: Machine) -> str:
         columns = {"x": law.coordinates.equation}
         table = {"columns": columns, **law.coordinates.further, "law": values}
         predicted = Predictions(own, j)
-        without, learned = (
-            predicted.error(),
-            predicted.error(column_of(table, {}, state.joint_names, j)),
-        )
+        without = predicted.error()
+        learned = predicted.error(column_of(table, {}, state.joint_names, j))
         what = f"{own.name} joint {name}: {law.coordinates.equation}"
         line = f"{what}: {without:.2f} % -> {learned:.2f}"
         if own.truth is not None:
@@ -68,14 +66,10 @@ def what_is_proposed(own: Machine) -> str:
 
 def column_of(definition, shapes, names, j):
     """The columns of a definition of `[own_effects]` on joint j, at these shapes or its own."""
-    effect = read_definition(
-        "found", TomlCell("found").with_value(dict(definition)), {}, joints=names
-    )
-    local = {s.name: shapes.get(s.name, s.grid[0]) for s in effect.forms[0].nonlinear_parameters}
-    candidate = Candidate(effect, effect.forms[0], names[j], j, local)
-    return lambda rows: rows.filter_samples(
-        j, [evaluate_equations([candidate], s) for s in rows.signals]
-    )
+    law = read_definition("found", TomlCell("found").with_value(dict(definition)), {}, joints=names)
+    local = {s.name: shapes.get(s.name, s.grid[0]) for s in law.forms[0].nonlinear_parameters}
+    one = Candidate(law, law.forms[0], names[j], j, local)
+    return lambda rows: rows.filter_samples(j, [evaluate_equations([one], s) for s in rows.signals])
 
 
 class Predictions:
