@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 import modeler.api as api
 from modeler.cli import main
@@ -55,7 +56,7 @@ def test_every_way_to_fit_is_that_of_the_command(tmp_path, chain, logs, options:
     assert main(["fit", "two-link", logs[0], "--out", str(place), *words]) == 0
     fitted = api.open_model(place)
     assert fitted.fit.method == model.fit.method
-    np.testing.assert_allclose(model.beta, fitted.beta, rtol=1e-9)
+    assert_allclose(model.beta, fitted.beta, rtol=1e-9)
     assert model.fit.verdict == fitted.fit.verdict
 
 
@@ -115,7 +116,7 @@ def test_add_and_undo(model, logs) -> None:
     assert waterfall.column("effect") == ["as fitted", "spring"]
     assert waterfall.column("error")[1] < 0.8 * waterfall.column("error")[0]
     back = api.remove_last(better, [logs[0]])
-    np.testing.assert_allclose(back.beta, model.beta, rtol=1e-9)
+    assert_allclose(back.beta, model.beta, rtol=1e-9)
 
 
 def test_compare_in_free_run_is_free_run(model, logs) -> None:
@@ -135,9 +136,7 @@ def test_home_is_that_of_the_command(tmp_path: Path) -> None:
     again = api.home(turned)
     assert again.stated_index is not None
     place = [mode.letter for mode in found.modes].index(other)
-    np.testing.assert_allclose(
-        again.modes[again.stated_index].posture, found.modes[place].posture, atol=1e-6
-    )
+    assert_allclose(again.modes[again.stated_index].posture, found.modes[place].posture, atol=1e-6)
     one = api.home(robot, near={robot.coordinates[0].name: 1.2})
     given = found.linkage.loops.actuated[0]
     assert one.modes[0].posture[given] == pytest.approx(1.2)

@@ -1,10 +1,10 @@
 """`modeler generate MODEL --out DIR`: every kind of model, and what is refused."""
 
-import dataclasses
 import html
 import json
 import re
 import shlex
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ def fitted(place):
 
 def changed(model, **more):
     """The model with another estimate."""
-    return dataclasses.replace(model, fit=dataclasses.replace(model.fit, **more))
+    return replace(model, fit=replace(model.fit, **more))
 
 
 def test_the_robot_after_its_model_leaves_no_fitted_files(place, capsys, tmp_path):
@@ -105,12 +105,12 @@ def test_a_model_that_is_not_usable_is_written_and_told(fitted, capsys, tmp_path
 @pytest.mark.parametrize(("delay", "words"), [(0.0025, "2.5 ms before"), (-0.001, "1 ms after")])
 def test_the_header_says_what_the_values_are_of(fitted, delay, words):
     load_ = ParameterEstimate("M2_load", "kg", 1.5, 0.01, True, "estimated")
-    processing = dataclasses.replace(fitted.fit.processing, delay=delay)
+    processing = replace(fitted.fit.processing, delay=delay)
     step = Addition("spring", "2", {}, 0.1, 0.1, (), fitted.robot_text)
     parameters = list(fitted.fit.parameters)
-    parameters[2] = dataclasses.replace(parameters[2], value=0.0, sigma=None, status="set aside")
+    parameters[2] = replace(parameters[2], value=0.0, sigma=None, status="set aside")
     model = changed(fitted, loads=(load_,), processing=processing, parameters=tuple(parameters))
-    emitted = generate(dataclasses.replace(model, history=(step,)))
+    emitted = generate(replace(model, history=(step,)))
     text = " ".join(emitted.files["two_link_fitted.h"].replace("\n *", " ").split())
     assert "Values by the method weighted, " in text
     assert "Effects added since the first fit: spring (joint 2)." in text
@@ -122,10 +122,9 @@ def test_the_header_says_what_the_values_are_of(fitted, delay, words):
 
 def test_drive_gains_of_the_robot_file_go_along(fitted):
     joints = tuple(
-        dataclasses.replace(j, drive_gain=k)
-        for j, k in zip(fitted.spec.joints, (35.0, 12.0), strict=True)
+        replace(j, drive_gain=k) for j, k in zip(fitted.spec.joints, (35.0, 12.0), strict=True)
     )
-    spec = dataclasses.replace(fitted.spec, joints=joints)
-    assert build_fitted_spec(dataclasses.replace(fitted, spec=spec)).gains == (35.0, 12.0)
-    spec = dataclasses.replace(fitted.spec, joints=(joints[0], fitted.spec.joints[1]))
-    assert build_fitted_spec(dataclasses.replace(fitted, spec=spec)).gains == ()
+    spec = replace(fitted.spec, joints=joints)
+    assert build_fitted_spec(replace(fitted, spec=spec)).gains == (35.0, 12.0)
+    spec = replace(fitted.spec, joints=(joints[0], fitted.spec.joints[1]))
+    assert build_fitted_spec(replace(fitted, spec=spec)).gains == ()

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 from scipy.optimize import least_squares as nonlinear
 
 from modeler.api import compile_model, derive, generate, load, read_currents
@@ -46,17 +47,17 @@ def estimated(W, V, joint):
 
 def test_without_noise_gains_and_parameters_are_exact():
     fit = estimated(*drawn(1, 0.0))
-    np.testing.assert_allclose(fit.gains, TRUE, rtol=1e-9)
-    np.testing.assert_allclose(fit.beta, [1.0, -0.7, 2.0, 0.5, 1.0], rtol=1e-9)
+    assert_allclose(fit.gains, TRUE, rtol=1e-9)
+    assert_allclose(fit.beta, [1.0, -0.7, 2.0, 0.5, 1.0], rtol=1e-9)
     assert fit.gap > 1e6
 
 
 def test_the_units_of_the_drives_do_not_matter_and_the_load_must_be_told():
     W, V, joint = drawn(2, 0.3)
     here, there = estimated(W, V, joint), estimated(W, V * np.array([1e4, 1.0, 1e-3])[joint], joint)
-    np.testing.assert_allclose(there.gains * [1e4, 1.0, 1e-3], here.gains, rtol=1e-7)
-    np.testing.assert_allclose(there.beta, here.beta, rtol=1e-7)
-    np.testing.assert_allclose(there.singular, here.singular, rtol=1e-6)
+    assert_allclose(there.gains * [1e4, 1.0, 1e-3], here.gains, rtol=1e-7)
+    assert_allclose(there.beta, here.beta, rtol=1e-7)
+    assert_allclose(there.singular, here.singular, rtol=1e-6)
     W[:, 4] = W[:, 0] - W[:, 1]  # a column that others reproduce cannot set the scale
     assert estimated(W, V, joint) is None
 
@@ -75,9 +76,7 @@ def test_it_is_the_estimate_of_greatest_likelihood():
     sigma = np.sqrt(np.diag(fit.covariance))[:7]
     both = np.concatenate([fit.gains, fit.beta[:4]])
     assert np.all(np.abs(both - other.x) < 0.02 * sigma)  # degrees of freedom are counted nearly
-    np.testing.assert_allclose(
-        sigma, np.sqrt(np.diag(np.linalg.inv(other.jac.T @ other.jac))), rtol=1e-3
-    )
+    assert_allclose(sigma, np.sqrt(np.diag(np.linalg.inv(other.jac.T @ other.jac))), rtol=1e-3)
 
 
 def test_standard_deviations_are_those_of_many_draws():
@@ -108,7 +107,7 @@ def test_noisy_runs_of_an_arm_spread_as_the_sigmas_say(arm):
 @pytest.mark.rotating("long tests of drive_gains")
 def test_gains_and_parameters_of_an_arm(arm):
     estimate = identify_gains(arm.compiled, arm.seen(TRUE), [arm.payload()])
-    np.testing.assert_allclose([*estimate.gains.values()], TRUE, rtol=0.01)
+    assert_allclose([*estimate.gains.values()], TRUE, rtol=0.01)
     fit = estimate.result
     assert [g.name for g in fit.gains] == ["g_tau1", "g_tau2", "g_tau3"]
     assert all(g.unit == "N m/unit" and 0.0 < g.sigma < 0.01 * g.value for g in fit.gains)
@@ -240,7 +239,7 @@ def test_a_robot_with_loops_carries_its_load_on_its_last_moving_row():
     arm = runs_of("five-bar", 2.0, duration=15.0, rate=250.0)
     assert check_known_quantities(arm.compiled, arm.seen(np.ones(2)), [arm.payload()], True) == []
     fit = identify_gains(arm.compiled, arm.seen(np.array([3.0, 0.2])), [arm.payload()])
-    np.testing.assert_allclose([*fit.gains.values()], [3.0, 0.2], rtol=0.01)
+    assert_allclose([*fit.gains.values()], [3.0, 0.2], rtol=0.01)
 
 
 def test_gains_in_one_line_stay_there():

@@ -5,6 +5,7 @@ from typing import Literal
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 from modeler.api import derive, generate
 from modeler.core.errors import ShapeError
@@ -56,12 +57,12 @@ def test_since_is_right_at_constant_acceleration() -> None:
         q = -0.5 * acceleration * t**2
         _, since = segments.compute_time_since_reversal(q, 0.001, distance)
         shown = t > math.sqrt(2.0 * distance / acceleration) + 0.002
-        np.testing.assert_allclose(since[shown], t[shown], atol=0.002)
+        assert_allclose(since[shown], t[shown], atol=0.002)
 
 
 def test_a_joint_that_never_moves_has_not_turned() -> None:
     q = NOISE * np.random.default_rng(5).normal(size=len(TIME))
-    np.testing.assert_allclose(segments.compute_time_since_reversal(q, STEP, 3e-4)[1], TIME)
+    assert_allclose(segments.compute_time_since_reversal(q, STEP, 3e-4)[1], TIME)
 
 
 def test_a_lag_is_the_solution_of_its_equation() -> None:
@@ -70,8 +71,8 @@ def test_a_lag_is_the_solution_of_its_equation() -> None:
     x = np.sin(w * TIME)
     left = w * tau * (np.exp(-TIME / tau) - np.cos(w * TIME))
     expected = (x + left) / (1.0 + (w * tau) ** 2)
-    np.testing.assert_allclose(segments.apply_lag(x, STEP, tau), expected, atol=2e-6)
-    np.testing.assert_allclose(segments.apply_lag(np.full(9, 2.5), STEP, tau), 2.5, rtol=1e-14)
+    assert_allclose(segments.apply_lag(x, STEP, tau), expected, atol=2e-6)
+    assert_allclose(segments.apply_lag(np.full(9, 2.5), STEP, tau), 2.5, rtol=1e-14)
 
 
 FOLLOWED = "abs(v)**p + load*q3 - since + t*a1"
@@ -96,15 +97,13 @@ def test_the_c_steps_lags_as_the_equations_say(precision: Literal["double", "sin
     x = np.abs(v[:, 1]) ** 1.5 + pull * q[:, 2] - since + (clock - 0.5) * a[:, 0]
     z = s[:, 4] + (1.0 - np.exp(-0.02 / 0.3)) * (0.5 * (x + s[:, 3]) - s[:, 4])
     exact = 1e-12 if precision == "double" else 2e-5
-    np.testing.assert_allclose(
-        after[:, [0, 3, 4]], np.column_stack([clock, x, z]), rtol=exact, atol=exact
-    )
+    assert_allclose(after[:, [0, 3, 4]], np.column_stack([clock, x, z]), rtol=exact, atol=exact)
     way = np.sign(s[:, 1] + dq[:, 1] / 3e-3)  # each of these steps is far longer than a reversal
-    np.testing.assert_allclose(after[:, 1], way)
+    assert_allclose(after[:, 1], way)
     ago = np.minimum(
         s[:, 2] + 0.02, 0.04 * (1.0 + np.abs(dq[:, 1] / 3e-3 + s[:, 1])) / np.abs(dq[:, 1] / 3e-3)
     )
-    np.testing.assert_allclose(since, np.where(way < 0.0, ago, s[:, 2] + 0.02), rtol=1e-4)
+    assert_allclose(since, np.where(way < 0.0, ago, s[:, 2] + 0.02), rtol=1e-4)
     with pytest.raises(ShapeError, match="its effects have lags; give q, qd, qdd"):
         compiled.advance(dq[0], 0.02, s[0])
 
@@ -118,4 +117,4 @@ def test_the_c_steps_lags_as_the_equations_say(precision: Literal["double", "sin
     for k in range(1, len(time)):
         now = motion[:, k]
         state = compiled.advance(now[0] - motion[0, k - 1], 0.02, state, *now)
-        np.testing.assert_allclose(state, read[k], rtol=10 * exact, atol=10 * exact)
+        assert_allclose(state, read[k], rtol=10 * exact, atol=10 * exact)

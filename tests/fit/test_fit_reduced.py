@@ -7,6 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 from scipy.signal import lfilter
 from test_observation_rows import exact_log, some_beta
 
@@ -62,7 +63,7 @@ def test_it_is_the_fit_of_the_smaller_table(fitted):
     assert names == [p.name for p in fit.parameters if p.essential]
     W = seen.W[:, [seen.names.index(name) for name in names]]
     beta, squares, _, _ = np.linalg.lstsq(W, seen.y, rcond=None)
-    np.testing.assert_allclose([p.value for p in reduced.parameters], beta, rtol=1e-8)
+    assert_allclose([p.value for p in reduced.parameters], beta, rtol=1e-8)
     sigma = np.sqrt(squares[0] / (len(W) - len(names)) * np.diag(np.linalg.inv(W.T @ W)))
     ratio = [p.sigma for p in reduced.parameters] / sigma
     assert np.all((ratio > 0.99) & (ratio < 1.5))  # raised where residuals have a memory
@@ -284,9 +285,7 @@ def test_the_band_is_the_spread_of_draws() -> None:
     root = random.normal(size=(5, 5)) / np.array([1e-6, 1.0, 1e3, 1.0, 1e5])[:, None]
     root[3] = 0.0  # set aside
     draws = columns @ (root @ random.normal(size=(5, 4000)))
-    np.testing.assert_allclose(
-        propagate_covariance(columns, root @ root.T), draws.std(axis=2), rtol=0.06
-    )
+    assert_allclose(propagate_covariance(columns, root @ root.T), draws.std(axis=2), rtol=0.06)
 
 
 def test_rows_say_why_they_do_not_count() -> None:
@@ -317,7 +316,7 @@ def test_autocorrelation_ends_at_segments_gaps_and_where_white():
     e = lfilter([1.0], [1.0, -0.8], random.normal(size=4000))
     whole = np.zeros(4000, dtype=int)
     r = estimate_autocorrelation(e, np.arange(4000), whole)
-    np.testing.assert_allclose(r[:4], 0.8 ** np.arange(4), atol=0.06)
+    assert_allclose(r[:4], 0.8 ** np.arange(4), atol=0.06)
     white = estimate_autocorrelation(random.normal(size=4000), np.arange(4000), whole)
     assert len(white) <= 2
     alone = estimate_autocorrelation(e, np.arange(4000), np.arange(4000))

@@ -1,6 +1,6 @@
 """A free run against what must come out: other physics, closed solutions, the definition."""
 
-import dataclasses
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -74,10 +74,9 @@ def fitted(robot: Robot, logs: list[Log]) -> tuple[IdentifiedModel, CompiledMode
 def with_values(model: IdentifiedModel, beta: np.ndarray) -> IdentifiedModel:
     """The model with other values."""
     parameters = tuple(
-        dataclasses.replace(p, value=float(value))
-        for p, value in zip(model.fit.parameters, beta, strict=True)
+        replace(p, value=float(value)) for p, value in zip(model.fit.parameters, beta, strict=True)
     )
-    return dataclasses.replace(model, fit=dataclasses.replace(model.fit, parameters=parameters))
+    return replace(model, fit=replace(model.fit, parameters=parameters))
 
 
 def true_model(name: str | Robot, duration: float, **settings):
@@ -123,9 +122,7 @@ def test_a_wrong_value_is_seen(arm, arm_run, name: str, share: float) -> None:
     model, compiled, log = arm
     beta = model.beta.copy()
     beta[[p.name for p in model.fit.parameters].index(name)] *= share
-    wrong = simulate_free_run(
-        with_values(model, beta), [dataclasses.replace(log, commanded=None)], compiled
-    )
+    wrong = simulate_free_run(with_values(model, beta), [replace(log, commanded=None)], compiled)
     ours, theirs = wrong.joints[0], arm_run.joints[0]
     assert 100.0 - ours.fit > 4.0 * (100.0 - theirs.fit)
     assert wrong.stability.is_unstable == arm_run.stability.is_unstable
@@ -142,7 +139,7 @@ def five_bar():
 @slow_rotating("free runs")
 def test_loops_are_run_too(five_bar) -> None:
     model, compiled, log = five_bar
-    bare = dataclasses.replace(log, commanded=None)
+    bare = replace(log, commanded=None)
     run = simulate_free_run(model, [bare], compiled, FreeRunSettings(window=0.5))
     assert all(joint.fit > 99.0 for joint in run.joints)
     assert FittedPlant(compiled, model.beta).shafts == 4
@@ -318,7 +315,7 @@ def test_given_gains_are_used(slide) -> None:
     run = simulate_free_run(model, [log], compiled, settings)
     assert run.controlled is not None and run.controlled.has_given_gains
     assert run.to_json()["controller"]["speed"] == pytest.approx(8.0)
-    bare = dataclasses.replace(log, commanded=None)
+    bare = replace(log, commanded=None)
     with pytest.raises(DataError, match=r"--controller: run1.parquet: no complete columns qc1"):
         simulate_free_run(model, [bare], compiled, settings)
 
@@ -328,7 +325,7 @@ def test_a_joint_that_stands_still_is_not_judged(arm) -> None:
     model, compiled, log = arm
     q, tau = log.q.copy(), log.tau.copy()
     q[:, 1] = 0.3
-    still = dataclasses.replace(log, q=q, tau=tau, commanded=None)
+    still = replace(log, q=q, tau=tau, commanded=None)
     run = simulate_free_run(model, [still], compiled)
     assert run.joints[1].fit is None and "still" in run.summary()
 

@@ -1,6 +1,6 @@
 """Effects into a model: the error falls on held-out motion, the C has the column, undo takes it."""
 
-import dataclasses
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -56,9 +56,7 @@ def test_a_temperature_effect_needs_the_column_ever_after(case: Case) -> None:
         return 30.0 + 20.0 * (1.0 - np.exp(-log.time / 12.0))
 
     model, train, holdout = case.hidden(warm)
-    train, holdout = (
-        dataclasses.replace(log, extra={"temperature2": heat(log)}) for log in (train, holdout)
-    )
+    train, holdout = (replace(log, extra={"temperature2": heat(log)}) for log in (train, holdout))
     better = add_effect(
         model, case.compiled, "temperature_friction", "2", LogSplit([train], [holdout])
     )

@@ -1,7 +1,7 @@
 """What `diagnose` says to do next can be done: no effect that `add` refuses, no words that fail."""
 
-import dataclasses
 import shlex
+from dataclasses import replace
 
 import pytest
 
@@ -28,11 +28,9 @@ def test_what_is_suggested_can_be_added(case: Case, effect: Effect) -> None:
         or effect.is_on_last_link
     )
     candidate = Candidate(effect, effect.forms[0], None if whole else "3", 2)
-    pick = dataclasses.replace(first.pick, candidate=candidate)
-    one = dataclasses.replace(first, effect=effect.id, joint=candidate.joint, pick=pick)
-    commands = views.suggest_after_diagnosis(
-        "m", ["a"], ["b"], dataclasses.replace(result, effects=(one,))
-    )
+    pick = replace(first.pick, candidate=candidate)
+    one = replace(first, effect=effect.id, joint=candidate.joint, pick=pick)
+    commands = views.suggest_after_diagnosis("m", ["a"], ["b"], replace(result, effects=(one,)))
     for _, command, _, *rest in map(shlex.split, commands):
         if command == "add":
             joint = rest[rest.index("--joint") + 1] if "--joint" in rest else None

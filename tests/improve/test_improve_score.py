@@ -1,7 +1,7 @@
 """Whether a change of a model is for the better: by joint, in units of its error, in blocks."""
 
-import dataclasses
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -83,8 +83,8 @@ def test_blocks_are_paired() -> None:
 def test_joints_may_have_weights_and_what_nobody_measured_counts_nothing() -> None:
     old, new = unseen(coloured(0, 0), coloured(0, 1)), unseen(0.5 * coloured(0, 0), coloured(0, 1))
     assert math.isclose(score_change(old, new, {"1": 2.0}).whole.after, 0.05, rel_tol=1e-9)
-    silent = dataclasses.replace(old, torque=(0.0 * old.torque[0], old.torque[1]))
-    score = score_change(silent, dataclasses.replace(new, torque=silent.torque), {"1": 1.0})
+    silent = replace(old, torque=(0.0 * old.torque[0], old.torque[1]))
+    score = score_change(silent, replace(new, torque=silent.torque), {"1": 1.0})
     assert math.isnan(score.whole.after) and not score.is_better and "1" not in score.errors
     assert format_error_pair(score.whole.before, score.whole.after) == ("-", "-")
 
@@ -125,18 +125,14 @@ def test_errors_that_are_as_good_as_none_neither_count_nor_spoil() -> None:
 def test_rows_of_another_grid_or_of_two_logs_with_one_clock_are_compared_in_blocks() -> None:
     """A delay moves the rows: they are no longer the same moments."""
     old, new = unseen(coloured(0, 0)), unseen(0.6 * coloured(5, 0))
-    moved = dataclasses.replace(new, time=(new.time[0] + 0.013,))
+    moved = replace(new, time=(new.time[0] + 0.013,))
     names = ("residual", "torque", "time", "run")
-    thinned = dataclasses.replace(
-        moved, **{name: (getattr(moved, name)[0][::2],) for name in names}
-    )
+    thinned = replace(moved, **{name: (getattr(moved, name)[0][::2],) for name in names})
     assert score_change(old, moved).is_better and score_change(old, thinned).is_better
     half = len(old.time[0]) // 2
     time = np.tile(old.time[0][:half], 2)
-    both = dataclasses.replace(old, run=(np.repeat([0, 2], half),), time=(time,))
-    assert score_change(
-        both, dataclasses.replace(both, residual=(0.6 * both.residual[0],))
-    ).is_better
+    both = replace(old, run=(np.repeat([0, 2], half),), time=(time,))
+    assert score_change(both, replace(both, residual=(0.6 * both.residual[0],))).is_better
 
 
 def test_a_joint_that_is_mended_counts_beside_one_that_says_nothing() -> None:

@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 from tests.modules import loaded, module, plain
 from tests.rotation import rotating
@@ -43,7 +44,7 @@ def test_dense_pivoting_closes_the_same_postures(dense, reach):
     np.testing.assert_array_equal(dense.closing_status(q) == 0, result == 0)
     assert reach < 0.3 or 0 < np.count_nonzero(result) < 400
     q, qd, qdd = (x[result == 0] for x in (q, qd, qdd))
-    np.testing.assert_allclose(sparse.close(q), dense.close(q), rtol=0, atol=1e-11)
+    assert_allclose(sparse.close(q), dense.close(q), rtol=0, atol=1e-11)
     G = dense.coupling(q)
     tight = 1e-11 * np.abs(G).max(axis=(1, 2), keepdims=True) ** 2
     assert (np.abs(sparse.coupling(q) - G) <= tight).all()
@@ -60,9 +61,7 @@ def test_from_the_last_is_as_from_home_and_a_hole_does_not_matter():
     q[700:720] = q[700]  # it stands, the filter of a log may do that
     q[1000:] = q[1000:][::-1]  # a leap
     W = model.observation(q, qd, qdd).reshape(1500, 3, -1)
-    np.testing.assert_allclose(
-        W, model.base_regressor(q, qd, qdd), rtol=0, atol=1e-12 * np.abs(W).max()
-    )
+    assert_allclose(W, model.base_regressor(q, qd, qdd), rtol=0, atol=1e-12 * np.abs(W).max())
     away = q.copy()
     away[300] += 5.0
     out, status = np.empty((4500, W.shape[2])), np.zeros(1500, dtype=np.intc)
@@ -71,4 +70,4 @@ def test_from_the_last_is_as_from_home_and_a_hole_does_not_matter():
     out = out.reshape(1500, 3, -1)
     assert np.isnan(out[300]).all()
     out[300] = W[300]
-    np.testing.assert_allclose(out, W, rtol=0, atol=1e-12 * np.abs(W).max())
+    assert_allclose(out, W, rtol=0, atol=1e-12 * np.abs(W).max())

@@ -1,8 +1,8 @@
 """Leaps, wraps, spikes and repeated values: named with joint, time and size, and mended."""
 
-import dataclasses
 import re
 from collections import Counter
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -65,9 +65,7 @@ def test_blows_stops_sticking_and_kicks_are_physics(kind, seed):
     log = rough_log(seed, 1000, kind)
     spec = rotor().spec
     for every in (1, 2, 10):
-        slower = dataclasses.replace(
-            log, time=log.time[::every], q=log.q[::every], tau=log.tau[::every]
-        )
+        slower = replace(log, time=log.time[::every], q=log.q[::every], tau=log.tau[::every])
         assert repaired(slower, spec)[1] == ()
 
 
@@ -170,7 +168,7 @@ def test_rows_that_a_recorder_repeats_are_left_out(each):
     for name in ARMS:
         log, _ = drawn(random, name, 125, 1e-3)
         rows = (np.arange(int(each * log.rows)) / each).astype(int)
-        again = dataclasses.replace(
+        again = replace(
             log, time=np.arange(len(rows)) / (125.0 * each), q=log.q[rows], tau=log.tau[rows]
         )
         mended, result = repaired(again, ARMS[name].spec)
@@ -196,7 +194,7 @@ def sample(defect, name="planar", joint=1, row=3000, size=0.5):
         tau[row, joint] += 100.0 * size
     if defect == "lost":
         keep = np.r_[:row, row + 60 : log.rows]
-        log = dataclasses.replace(log, time=log.time[: len(keep)], q=q[keep], tau=tau[keep])
+        log = replace(log, time=log.time[: len(keep)], q=q[keep], tau=tau[keep])
     return log, beta
 
 
@@ -268,7 +266,7 @@ def test_spikes_of_logged_velocities_are_left_out():
     log, _ = drawn(random, "planar", 500, 1e-3)
     qd = np.gradient(log.q, log.time, axis=0) + 1e-3 * random.normal(size=log.q.shape)
     qd[1000, 0] += 5.0
-    log = dataclasses.replace(log, qd=qd)
+    log = replace(log, qd=qd)
     (result,) = repaired(log, model.spec)[1]
     assert (result.column, result.unit, result.times) == ("qd1", "rad/s", (2.0,))
 

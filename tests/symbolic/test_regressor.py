@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 from modeler.derivation.lagrange import compute_lagrange_torque
 from modeler.derivation.model import LinkColumn
@@ -24,7 +25,7 @@ def test_newton_euler_agrees_with_lagrange(name):
     chi[inertial(model)] = np.random.default_rng(2).normal(size=len(inertial(model)))
     tau = evaluate_regressor(model, states) @ chi
     other = compute_lagrange_torque(model, *states, chi)
-    np.testing.assert_allclose(tau, other, rtol=0, atol=1e-12 * np.abs(other).max())
+    assert_allclose(tau, other, rtol=0, atol=1e-12 * np.abs(other).max())
 
 
 @pytest.mark.parametrize("name", TREES)
@@ -35,7 +36,7 @@ def test_regressor_agrees_with_pinocchio(name):
     states = draw_random_states(model, 15, np.random.default_rng(3))
     ours = evaluate_regressor(model, states)[:, :, inertial(model)]
     theirs = pinocchio_regressor(model.robot, *states)
-    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-10 * np.abs(theirs).max())
+    assert_allclose(ours, theirs, rtol=0, atol=1e-10 * np.abs(theirs).max())
 
 
 @pytest.mark.parametrize("name", TEXTBOOK)
@@ -66,9 +67,7 @@ def test_recursion_agrees_with_the_regressor(name):
 
     tau = evaluate_regressor(model, (q, qd, qdd)) @ chi
     scale = np.abs(tau).max()
-    np.testing.assert_allclose(
-        evaluated(model.derive_torque(symbols)), tau, rtol=0, atol=1e-12 * scale
-    )
+    assert_allclose(evaluated(model.derive_torque(symbols)), tau, rtol=0, atol=1e-12 * scale)
     n = q.shape[1]
     M = evaluated([x for row in model.derive_inertia_matrix(symbols) for x in row]).reshape(
         -1, n, n
@@ -81,4 +80,4 @@ def test_recursion_agrees_with_the_regressor(name):
         + evaluated(model.derive_torque(symbols, speeds=False, accelerations=False, effects=False))
         + evaluated(model.derive_torque(effects, links=False))
     )
-    np.testing.assert_allclose(parts, tau, rtol=0, atol=1e-12 * scale)
+    assert_allclose(parts, tau, rtol=0, atol=1e-12 * scale)
