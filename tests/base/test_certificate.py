@@ -5,12 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from modeler.derivation import field
-from modeler.derivation.base_parameters import (
-    ProofError,
-    certify_relations,
-    derive_column_relations,
-)
+from modeler.derivation import base_parameters, field
 from modeler.derivation.derive import derive_model
 from modeler.derivation.modular import PRIME, compute_modular_rank
 from modeler.robot.read import read_robot
@@ -20,11 +15,11 @@ from modeler.robot.read import read_robot
 def wrist():
     model = derive_model(read_robot("wrist"))
     K = field.build_geometry_field(model.geometry)
-    return model, K, derive_column_relations(model, model.geometry, K, seed=1)
+    return model, K, base_parameters.derive_column_relations(model, model.geometry, K, seed=1)
 
 
 def prove(model, K, relations, seed):
-    return certify_relations(model.geometry, model.columns, K, relations, seed)
+    return base_parameters.certify_relations(model.geometry, model.columns, K, relations, seed)
 
 
 def test_right_relations_pass(wrist):
@@ -39,7 +34,7 @@ def test_a_wrong_coefficient_is_found(wrist):
     row[other] = row[other] + K.one
     rows = (*relations.rows[:index], row, *relations.rows[index + 1 :])
     wrong = dataclasses.replace(relations, rows=rows)
-    with pytest.raises(ProofError, match=r"the relation of \w+ does not hold"):
+    with pytest.raises(base_parameters.ProofError, match=r"the relation of \w+ does not hold"):
         prove(model, K, wrong, seed=1)
 
 
@@ -51,7 +46,9 @@ def test_a_missing_relation_is_found(wrist):
         dropped_columns=relations.dropped_columns[1:],
         kept_columns=tuple(sorted((*relations.kept_columns, relations.dropped_columns[0]))),
     )
-    with pytest.raises(ProofError, match="of 18 columns kept only 17 are independent"):
+    with pytest.raises(
+        base_parameters.ProofError, match="of 18 columns kept only 17 are independent"
+    ):
         prove(model, K, fewer, seed=1)
 
 

@@ -23,20 +23,18 @@ OTHERS = {"pictures": 1, "manifest": MANIFEST_FORMAT, "model": MODEL_FORMAT}
 # What scripts read: names that must not change between versions. A list stands for its entries, {}
 # for the entries of an object whose names are the user's.
 EFFECT_AT = {"effect": 0, "joint": 0}
-FIT = {
-    "robot": 0,
-    "method": 0,
-    "samples": 0,
-    "condition_number": 0,
-    "relative_error": 0,
-    "joints": {"": {"relative_error": 0, "rms": 0}},
-    "parameters": [
-        {"name": 0, "value": 0, "sigma": 0, "relative_sigma_percent": 0, "essential": 0}
-    ],
-    "valid": 0,
-    "warnings": 0,
-    "bands": {"noise": 0, "reasons": 0},
-}
+FIT = dict(
+    robot=0,
+    method=0,
+    samples=0,
+    condition_number=0,
+    relative_error=0,
+    joints={"": {"relative_error": 0, "rms": 0}},
+    parameters=[{"name": 0, "value": 0, "sigma": 0, "relative_sigma_percent": 0, "essential": 0}],
+    valid=0,
+    warnings=0,
+    bands={"noise": 0, "reasons": 0},
+)
 CONTRACT = {
     "derive": {
         "robot": 0,
@@ -49,11 +47,9 @@ CONTRACT = {
         "proof": 0,
     },
     "fit": FIT,
-    "compare": {
-        "samples": 0,
-        "relative_error": 0,
-        "joints": {"": {"relative_error": 0, "rms": 0, "max": 0, "r2": 0}},
-    },
+    "compare": dict(
+        samples=0, relative_error=0, joints={"": {"relative_error": 0, "rms": 0, "max": 0, "r2": 0}}
+    ),
     "diagnose": {
         "verdict": 0,
         "effects": [

@@ -25,14 +25,9 @@ from tests.rotation import with_cases
 def simulated(hide, seed):
     """A log of a machine with a hidden effect, its model, and the effect's true values."""
     arm, hidden = chain_of("demo-arm"), (parse_hidden_effect(hide),)
-    settings = {
-        "duration": 15.0,
-        "rate": 500.0,
-        "seed": seed,
-        "parameter_seed": seed,
-        "torque_noise": 0.02,
-        "hidden": hidden,
-    }
+    settings = dict(
+        duration=15.0, rate=500.0, seed=seed, parameter_seed=seed, torque_noise=0.02, hidden=hidden
+    )
     truth = simulate(arm.derivation.robot, SimulationSettings(**settings)).truth
     log = arm.log(str(seed), **settings)
     return log, arm.fit([log]), truth.hidden_effects[0].values

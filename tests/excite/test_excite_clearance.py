@@ -7,17 +7,11 @@ import coal
 import numpy as np
 import pytest
 
+from modeler import excitation
 from modeler.api import check_motion
 from modeler.api.motion_bounds import build_bounds
 from modeler.cli import main
 from modeler.core.errors import DataError, RobotError
-from modeler.excitation import (
-    CollisionGeometry,
-    MotionRequest,
-    design_motion,
-    find_closest_approach,
-    format_csv,
-)
 from modeler.excitation.limits import build_posture_limits
 from modeler.robot import parse_robot_text, read_robot
 from modeler.views.robot_skeleton import build_skeleton, compute_poses
@@ -87,7 +81,7 @@ def test_distances_are_coals_for_capsules_that_cross_touch_and_are_parallel():
     ends[:10, 1] = ends[:10, 0] + [0.0, 0.0, 1.3]  # parallel
     ends[10:20, 1, 0] = ends[10:20, 0].mean(axis=1)  # they touch
     radius = np.array([0.05, 0.08])
-    solids = CollisionGeometry(
+    solids = excitation.CollisionGeometry(
         ("1", "2"),
         np.zeros(2, dtype=int),
         ends[0],
@@ -138,7 +132,9 @@ def test_the_slope_of_distances_is_their_derivative(arm):
 )
 def test_a_motion_keeps_links_apart_at_all_times_and_costs_little(arm, family, tmp_path):
     robot, compiled, bounds = arm
-    path = design_motion(compiled, bounds, MotionRequest(6.0, 3, "condition", 1, family=family))
+    path = excitation.design_motion(
+        compiled, bounds, excitation.MotionRequest(6.0, 3, "condition", 1, family=family)
+    )
     fine = path.series.resample_at(np.linspace(0.0, 6.0, 201)).evaluate_motion(path.x)[0]
     seen = [oracle(robot, q) for q in fine]
     rest = {
@@ -152,7 +148,7 @@ def test_a_motion_keeps_links_apart_at_all_times_and_costs_little(arm, family, t
     assert at[path.closest_approach.pair] == pytest.approx(path.closest_approach.distance, abs=1e-6)
     assert path.quality.condition < path.random[0]
     place = tmp_path / "m.csv"
-    place.write_text(format_csv(path.sample_motion(200.0)))
+    place.write_text(excitation.format_csv(path.sample_motion(200.0)))
     result = check_motion(robot, place)
     assert result.pair == path.closest_approach.pair
     assert result.distance == pytest.approx(path.closest_approach.distance, abs=2e-5)
@@ -170,7 +166,7 @@ def test_what_comes_near_between_samples_is_seen(arm):
             q[:, 1] -= deep * np.exp(-(((t - at) / 0.03) ** 2)) + 0.1 * np.sin(t)
             return q
 
-        near = find_closest_approach(compiled, solids, path, 10.0)
+        near = excitation.find_closest_approach(compiled, solids, path, 10.0)
         close = at + np.linspace(-0.1, 0.1, 4001)
         ends = solids.place_capsules(compiled.forward_kinematics(path(close)))
         least = solids.compute_distances(ends)[0].min()
@@ -184,7 +180,7 @@ def test_the_command_checks_a_motion_and_draws_the_nearest_two(arm, tmp_path, ca
     columns["q3"] = 1.5 + 0.9 * np.sin(t) ** 2  # the forearm folds back to the column
     columns["q2"] = 0.2 + 0.2 * np.sin(t) ** 2
     place, page = tmp_path / "fold.csv", tmp_path / "fold.html"
-    place.write_text(format_csv(columns))
+    place.write_text(excitation.format_csv(columns))
     words = ["excite", str(tmp_path / "arm.toml"), "--check", str(place)]
     assert main([*words, "--report", str(page), "--clearance", "0.3"]) == 1
     out, err = capsys.readouterr()
@@ -204,7 +200,9 @@ def test_the_command_checks_a_motion_and_draws_the_nearest_two(arm, tmp_path, ca
 def test_loops_are_kept_clear_too():
     result, compiled = built_in("five-bar")
     bounds = build_bounds(result, compiled, {}, {}, 0.02)
-    motion = design_motion(compiled, bounds, MotionRequest(6.0, 3, starts=1, time_limit=0.3))
+    motion = excitation.design_motion(
+        compiled, bounds, excitation.MotionRequest(6.0, 3, starts=1, time_limit=0.3)
+    )
     assert motion.closest_approach.bound >= 0.02
     assert len(motion.closest_approach.posture) > len(bounds.joints)
 
@@ -229,4 +227,4 @@ def test_a_margin_that_leaves_no_room_is_refused(arm):
     _, compiled, bounds = arm
     far = dataclasses.replace(bounds, clearance=dataclasses.replace(bounds.clearance, margin=0.8))
     with pytest.raises(DataError, match="no posture was found"):
-        design_motion(compiled, far, MotionRequest(4.0, 3, starts=1))
+        excitation.design_motion(compiled, far, excitation.MotionRequest(4.0, 3, starts=1))

@@ -7,13 +7,9 @@ import pytest
 
 from modeler.cli import main
 from modeler.core.errors import DataError
+from modeler.estimation import two_step
 from modeler.estimation.identify import identify
 from modeler.estimation.single_joint import JointDirections
-from modeler.estimation.two_step import (
-    build_inertia_rows,
-    estimate_two_steps,
-    identify_in_two_steps,
-)
 from modeler.estimation.verdict import judge_fit
 from modeler.regression import Log, Processing, observe
 from modeler.robot import Limits, compute_joint_directions, read_robot
@@ -71,7 +67,7 @@ def exact():
     log = _log(_ROBOT)
     log.tau[1000:1100, 1] = np.nan
     observation = _observed(_ROBOT, log)
-    return identify_in_two_steps(compiled(_ROBOT), observation, _directions(_ROBOT))
+    return two_step.identify_in_two_steps(compiled(_ROBOT), observation, _directions(_ROBOT))
 
 
 @pytest.mark.digits
@@ -116,7 +112,7 @@ def test_the_sigmas_of_both_fits_are_those_of_many_runs():
     z = np.empty((2, _SEEDS, len(truth)))
     for seed in range(_SEEDS):
         observation = _observed(_ROBOT, _log(_ROBOT, 70.0, 0.02, seed))
-        estimate = estimate_two_steps(model, observation, ways).estimate
+        estimate = two_step.estimate_two_steps(model, observation, ways).estimate
         z[0, seed] = (estimate.beta - truth) / np.sqrt(np.diag(estimate.covariance))
         one = identify(observation)
         z[1, seed] = (one.beta - truth) / np.sqrt(np.diag(one.covariance))
@@ -129,10 +125,10 @@ def test_moves_of_the_first_joint_tell_16_of_17():
     """Joint-1-only moves leave ZZ2R, the constant of J22 (PJ19); moves of joint 2 add it."""
     model, ways = compiled("wrist"), _directions("wrist")
     first = _log("wrist", only=[0])
-    estimate = estimate_two_steps(model, _observed("wrist", first), ways).estimate
+    estimate = two_step.estimate_two_steps(model, _observed("wrist", first), ways).estimate
     assert [tangle.name for tangle in estimate.rank.dropped_columns] == ["ZZ2R"]
     second = dataclasses.replace(_log("wrist", only=[1]), name="second.csv")
-    estimate = estimate_two_steps(model, _observed("wrist", first, second), ways).estimate
+    estimate = two_step.estimate_two_steps(model, _observed("wrist", first, second), ways).estimate
     assert not estimate.rank.dropped_columns
     assert np.abs(estimate.beta - _beta("wrist")).max() < 1e-10
 
@@ -150,7 +146,7 @@ def test_the_inertias_have_the_rank_of_the_papers_functions(exact):
     )
     model, ways = compiled("wrist"), _directions("wrist")
     for count in range(1, 9):
-        rows = build_inertia_rows(model, q[:count], ways.rows[0])
+        rows = two_step.build_inertia_rows(model, q[:count], ways.rows[0])
         assert np.linalg.matrix_rank(rows, 1e-8) == np.linalg.matrix_rank(paper[:count], 1e-8)
 
 
@@ -165,7 +161,7 @@ def test_joints_that_feel_nothing_of_each_other(name):
     tau += 0.1 * np.random.default_rng(2).normal(size=tau.shape)
     joints = tuple(joint.name for joint in spec.joints)
     log = Log("one.csv", joints, reference.time, reference.q, tau, reference.qd, reference.qdd)
-    estimate = estimate_two_steps(model, _observed(name, log), _directions(name)).estimate
+    estimate = two_step.estimate_two_steps(model, _observed(name, log), _directions(name)).estimate
     assert not estimate.rank.dropped_columns
     z = (estimate.beta - beta) / np.sqrt(np.diag(estimate.covariance))
     assert 0.2 < np.sqrt(np.mean(z**2)) < 2.0
@@ -177,13 +173,15 @@ def test_links_that_turn_in_a_parallelogram_of_changing_inertia_are_left_out():
     run = simulate(read_robot("five-bar"), settings)
     log = Log("one.csv", run.joints, run.time, run.q, run.tau)
     with pytest.raises(DataError, match="other functions than those of one body that turns"):
-        estimate_two_steps(model, observe(model, [log]), _directions("five-bar"))
+        two_step.estimate_two_steps(model, observe(model, [log]), _directions("five-bar"))
 
 
 def test_logs_without_such_a_piece_are_refused(tmp_path, capsys):
     log = _log("wrist", 20.0, motion=build_point_to_point_reference)
     with pytest.raises(DataError, match=r"^one.csv: no piece in which one joint moves") as error:
-        estimate_two_steps(compiled("wrist"), _observed("wrist", log), _directions("wrist"))
+        two_step.estimate_two_steps(
+            compiled("wrist"), _observed("wrist", log), _directions("wrist")
+        )
     assert "use --method weighted" in str(error.value) and "\n" not in str(error.value)
     path = tmp_path / "joints.csv"  # of joints, not of motors
     names = ["time", *(f"q{j}" for j in log.joints), *(f"tau{j}" for j in log.joints)]
@@ -206,16 +204,16 @@ def test_a_joint_without_a_motor_says_nothing():
     idle = tuple(dataclasses.replace(joint, actuated=False) for joint in observation.joints)
     without = dataclasses.replace(observation, joints=idle)
     with pytest.raises(DataError, match="left out: the joint has no motor"):
-        estimate_two_steps(compiled("wrist"), without, _directions("wrist"))
+        two_step.estimate_two_steps(compiled("wrist"), without, _directions("wrist"))
 
 
 def test_too_few_configurations_and_joints_that_never_move_alone_are_named():
     """That, and no unit or sign, is why joint 1 is not described in the second log."""
     short, second = (_observed(_ROBOT, _log(_ROBOT, 40.0, only=only)) for only in (None, [1]))
-    few = identify_in_two_steps(compiled(_ROBOT), short, _directions(_ROBOT))
+    few = two_step.identify_in_two_steps(compiled(_ROBOT), short, _directions(_ROBOT))
     assert few.excitation[0].rank < few.excitation[0].max_rank
     assert any("not persistently exciting; move it at" in s for s in few.result.sentences)
-    steps = identify_in_two_steps(compiled(_ROBOT), second, _directions(_ROBOT))
+    steps = two_step.identify_in_two_steps(compiled(_ROBOT), second, _directions(_ROBOT))
     told = steps.collect_warnings()
     line = judge_fit(compiled(_ROBOT), second, steps.result, log_warnings=told).verdict.line
     assert line.startswith("Not valid: joint 1, 3 never moved alone for long enough")

@@ -104,11 +104,7 @@ def test_the_command_and_python_say_the_same(capsys, plant: Path, tmp_path: Path
     assert data["verdict"] == "drift" and data["time_unit"] == "days" and data["logs"] == 10
     [one] = data["findings"]
     assert (one["machine"], one["joint"], one["effect"], one["shape"], one["begin"]) == (
-        "r2",
-        "2",
-        "coulomb",
-        "jump",
-        "2026-03-03",
+        *"r2 2 coulomb jump 2026-03-03".split(),
     )
     assert one["change_percent"] == pytest.approx(50.0, abs=8.0) and one["temperature"] is None
     followed = {each["parameter"]: each for each in data["quantities"]}

@@ -65,11 +65,9 @@ def stribeck(draw: Draw) -> Hidden:
     plant.stribeck_speed[j] = draw.between(0.04, 0.15) * draw.speed
     plant.stribeck_exponent[j] = draw.rng.choice([1.0, 2.0])
     plant.coulomb_width[j] = min(plant.coulomb_width[j], plant.stribeck_speed[j] / 6)
-    values = {
-        "dF": plant.stribeck_torque[j],
-        "vs": plant.stribeck_speed[j],
-        "delta": plant.stribeck_exponent[j],
-    }
+    values = dict(
+        dF=plant.stribeck_torque[j], vs=plant.stribeck_speed[j], delta=plant.stribeck_exponent[j]
+    )
     if draw.rng.uniform() < 0.5:
         plant.bristle_law[j] = LUGRE
         plant.bristle_length[j] = max(6e-4, 0.5 * 0.25e-3 * draw.speed * 1.6)

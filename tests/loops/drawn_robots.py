@@ -120,12 +120,7 @@ def placed(R: np.ndarray, p: np.ndarray) -> dict[str, float]:
     """Cells of the fixed row with that pose in its antecedent."""
     if R[2, 2] > 1.0 - 1e-9:  # parallel axes
         gamma, turn = float(np.arctan2(p[1], p[0])), float(np.arctan2(R[1, 0], R[0, 0]))
-        return {
-            "gamma": gamma,
-            "b": float(p[2]),
-            "d": float(np.hypot(*p[:2])),
-            "theta": turn - gamma,
-        }
+        return dict(gamma=gamma, b=float(p[2]), d=float(np.hypot(*p[:2])), theta=turn - gamma)
     gamma, theta = np.arctan2(R[0, 2], -R[1, 2]), np.arctan2(R[2, 0], R[2, 1])
     across = np.array([[0, np.cos(gamma), R[0, 2]], [0, np.sin(gamma), R[1, 2]], [1, 0, R[2, 2]]])
     b, d, r = np.linalg.solve(across, p)

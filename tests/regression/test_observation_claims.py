@@ -6,12 +6,7 @@ import numpy as np
 import pytest
 
 from modeler.cli import main
-from modeler.numerics.noise import (
-    estimate_hold_length,
-    estimate_lattice_step,
-    find_clips,
-    find_repeated_rows,
-)
+from modeler.numerics import noise
 from modeler.regression.log import Log
 from modeler.regression.motion import Processing
 from modeler.regression.observe import observe
@@ -77,9 +72,9 @@ def test_channels_with_holds_of_their_own_are_no_slow_robot():
     log, _ = recorded(1)
     q = np.column_stack([held(log.q[:, 0], 7), held(log.q[:, 1], 5)])
     tau = np.column_stack([held(log.tau[:, 0], 11), held(log.tau[:, 1], 6)])
-    assert not find_repeated_rows(q, tau).any()
-    assert [estimate_hold_length(x) for x in (*q.T, *tau.T)] == [7, 5, 11, 6]
-    together = find_repeated_rows(held(log.q, 3), held(log.tau, 3))
+    assert not noise.find_repeated_rows(q, tau).any()
+    assert [noise.estimate_hold_length(x) for x in (*q.T, *tau.T)] == [7, 5, 11, 6]
+    together = noise.find_repeated_rows(held(log.q, 3), held(log.tau, 3))
     assert together.mean() == pytest.approx(2 / 3, abs=0.01)
 
 
@@ -87,12 +82,12 @@ def test_clean_channels_coarse_encoders_and_switched_torques_are_not_held():
     random, (t, q, _, _) = np.random.default_rng(0), motion(step=1e-3)
     for counts in (1e-2, 1e-3, 1e-5):
         for slow in (1.0, 0.02):
-            assert estimate_hold_length(np.round(slow * q[:, 0] / counts) * counts) == 1
+            assert noise.estimate_hold_length(np.round(slow * q[:, 0] / counts) * counts) == 1
     noisy = np.round(random.normal(size=t.size) * 3.0) / 10.0
     assert (
-        estimate_hold_length(noisy)
-        == estimate_hold_length(np.sign(np.sin(9.0 * t)))
-        == estimate_hold_length(0.0 * t)
+        noise.estimate_hold_length(noisy)
+        == noise.estimate_hold_length(np.sign(np.sin(9.0 * t)))
+        == noise.estimate_hold_length(0.0 * t)
         == 1
     )
 
@@ -121,9 +116,12 @@ def test_a_joint_that_sticks_before_it_turns_back_is_not_clipped():
         way = np.cos(1.3 * t)
         stopped = np.where(np.abs(way) < stick, 0.4 * np.sign(swing) * np.sqrt(1 - stick**2), swing)
         q = np.round(stopped / 3.8e-4) * 3.8e-4
-        assert find_clips(q) == ()
+        assert noise.find_clips(q) == ()
     cut = np.clip(0.4 * np.sin(1.3 * t), -0.3, 0.25)
-    assert [(clip.value, clip.upper) for clip in find_clips(cut)] == [(0.25, True), (-0.3, False)]
+    assert [(clip.value, clip.upper) for clip in noise.find_clips(cut)] == [
+        (0.25, True),
+        (-0.3, False),
+    ]
 
 
 def test_a_claim_that_the_fit_does_not_confirm_changes_nothing():
@@ -174,13 +172,13 @@ def test_a_lattice_is_found_below_single_precision_and_no_rounding_is_one():
         exact = np.round(q[:, 0] / step) * step
         degrees = np.float32(np.rad2deg(exact)).astype(float) * np.pi / 180.0
         for values in (exact, np.float32(exact).astype(float), degrees):
-            assert estimate_lattice_step(values) == pytest.approx(step, rel=1e-4)
+            assert noise.estimate_lattice_step(values) == pytest.approx(step, rel=1e-4)
     assert (
-        estimate_lattice_step(q[:, 0])
-        == estimate_lattice_step(np.float32(q[:, 0]).astype(float))
+        noise.estimate_lattice_step(q[:, 0])
+        == noise.estimate_lattice_step(np.float32(q[:, 0]).astype(float))
         == 0.0
     )
-    assert estimate_lattice_step(0.3 * t) == 0.0
+    assert noise.estimate_lattice_step(0.3 * t) == 0.0
 
 
 def test_one_line_lists_what_never_changes_and_stands_last(tmp_path, capsys):

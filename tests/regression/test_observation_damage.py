@@ -203,22 +203,16 @@ def clean_observation():
     return observe(planar_arm(), [drawn(np.random.default_rng(3), "planar", 1000, 1e-3)[0]])
 
 
-LINES = {
-    "spike": (
-        r"q2: jumps by 0\.[45]\d* rad and back, at 3 s; 3 samples \(0\.05 % of the rows\) "
-        r"not used, held-out error x 0\.\d\d; check the sensor"
-    ),
-    "zero": (
-        r"q2: jumps by 0\.5 rad at 3 s and goes on from there; joined to the longest part, "
-        r"held-out error x 0\."
-    ),
-    "wrap": r"q2: wraps by 2 pi rad, .* first at [\d.]+ s; unwrapped",
-    "glitch": (
-        r"tau2: spike of (49|50)[\d.]* N m, at 3 s, that no other joint shows; 1 sample "
-        r"\(0\.0167 % of the rows\) not used, held-out error x 0\."
-    ),
-    "lost": r"q[12]: jumps along its motion by .*, at 3 s; no filter runs across, held-out error",
-}
+LINES = dict(
+    spike=r"q2: jumps by 0\.[45]\d* rad and back, at 3 s; 3 samples \(0\.05 % of the rows\) "
+    r"not used, held-out error x 0\.\d\d; check the sensor",
+    zero=r"q2: jumps by 0\.5 rad at 3 s and goes on from there; joined to the longest part, "
+    r"held-out error x 0\.",
+    wrap=r"q2: wraps by 2 pi rad, .* first at [\d.]+ s; unwrapped",
+    glitch=r"tau2: spike of (49|50)[\d.]* N m, at 3 s, that no other joint shows; 1 sample "
+    r"\(0\.0167 % of the rows\) not used, held-out error x 0\.",
+    lost=r"q[12]: jumps along its motion by .*, at 3 s; no filter runs across, held-out error",
+)
 
 
 @pytest.mark.parametrize("defect", ["zero", *rotating("spike", "lost", "wrap", "glitch")])

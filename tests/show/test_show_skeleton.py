@@ -10,18 +10,8 @@ from modeler.core.choices import read_builtin_robot
 from modeler.robot.read import parse_robot_text, read_robot
 from modeler.simulation.closing import build_constraints, compute_closed_postures
 from modeler.simulation.rigid import compute_world_frames
+from modeler.views import robot_skeleton
 from modeler.views.robot_scene import choose_view, collect_joint_points
-from modeler.views.robot_skeleton import (
-    Posture,
-    Skeleton,
-    build_skeleton,
-    compute_gaps,
-    compute_jacobian,
-    compute_poses,
-    compute_residuals,
-    find_home_posture,
-    solve_closure,
-)
 from tests.further_robots import FurtherRobots
 from tests.robot.texts import edited
 from tests.robots import LOOPED, ROBOTS, TIED
@@ -43,10 +33,10 @@ def variables(skeleton, u):
 
 
 @functools.cache
-def standing(name: str) -> tuple[Skeleton, Posture]:
+def standing(name: str) -> tuple[robot_skeleton.Skeleton, robot_skeleton.Posture]:
     """A built-in robot and its posture at home."""
-    skeleton = build_skeleton(read_robot(name))
-    return skeleton, find_home_posture(skeleton)
+    skeleton = robot_skeleton.build_skeleton(read_robot(name))
+    return skeleton, robot_skeleton.find_home_posture(skeleton)
 
 
 @pytest.mark.parametrize("name", ROBOTS)
@@ -55,7 +45,9 @@ def test_frames_are_where_the_simulator_has_them(name: str) -> None:
     u = np.random.default_rng(1).uniform(-2.0, 2.0, len(skeleton.free))
     q = ca.SX.sym("q", len(skeleton.robot.moving_joints))
     frames = compute_world_frames(skeleton.robot, q)
-    for row, pose in zip(skeleton.robot.joints, compute_poses(skeleton, u), strict=True):
+    for row, pose in zip(
+        skeleton.robot.joints, robot_skeleton.compute_poses(skeleton, u), strict=True
+    ):
         frame = frames[row.name]
         both = ca.Function("pose", [q], [ca.horzcat(frame.rotation, frame.position)])
         np.testing.assert_allclose(pose[:3], both(variables(skeleton, u)).full(), atol=1e-12)
@@ -71,8 +63,11 @@ def test_home_is_the_posture_that_the_simulator_closes(name: str) -> None:
         skeleton.robot, build_constraints(skeleton.robot), start[None]
     )[0]
     np.testing.assert_allclose(variables(skeleton, home.u), theirs, atol=1e-8)
-    assert all(gap.distance < 1e-9 and gap.angle < 1e-7 for gap in compute_gaps(skeleton, home.u))
-    again = solve_closure(skeleton, home.u, skeleton.dependent_places, home.size)
+    assert all(
+        gap.distance < 1e-9 and gap.angle < 1e-7
+        for gap in robot_skeleton.compute_gaps(skeleton, home.u)
+    )
+    again = robot_skeleton.solve_closure(skeleton, home.u, skeleton.dependent_places, home.size)
     np.testing.assert_allclose(again, home.u, atol=1e-9)
 
 
@@ -80,9 +75,11 @@ def test_home_is_the_posture_that_the_simulator_closes(name: str) -> None:
 def test_slopes_are_those_of_the_residuals(name: str) -> None:
     skeleton, home = standing(name)
     u = home.u + np.random.default_rng(2).uniform(-0.2, 0.2, len(home.u))
-    J = compute_jacobian(skeleton, u, home.size, range(len(u)))
+    J = robot_skeleton.compute_jacobian(skeleton, u, home.size, range(len(u)))
     way = np.random.default_rng(3).uniform(-1.0, 1.0, len(u))
-    ahead, behind = (compute_residuals(skeleton, u + s * 1e-6 * way, home.size) for s in (1, -1))
+    ahead, behind = (
+        robot_skeleton.compute_residuals(skeleton, u + s * 1e-6 * way, home.size) for s in (1, -1)
+    )
     np.testing.assert_allclose(J @ way, (ahead - behind) / 2e-6, atol=1e-8)
 
 
@@ -102,23 +99,19 @@ motion = "free"
 rows = [["L", "P", "0e", "{kind}"]]
 """
     robot = parse_robot_text(text, "free")
-    skeleton = build_skeleton(robot)
+    skeleton = robot_skeleton.build_skeleton(robot)
     u = dict.fromkeys(skeleton.free, 0.0)
     if kind == "universal":  # the axes of the cross are perpendicular
         u["Pa"] = np.pi / 2
 
     def gap(**moved: float) -> tuple[float, float]:
         values = np.array([{**u, **moved}[name] for name in skeleton.free])
-        loop = compute_gaps(skeleton, values)[0]
+        loop = robot_skeleton.compute_gaps(skeleton, values)[0]
         return loop.distance, loop.angle
 
-    allowed = {
-        "universal": [],
-        "cylindrical": ["Pz", "P"],
-        "prismatic": ["Pz"],
-        "planar": ["Px", "Py", "P"],
-        "rigid": [],
-    }[kind]
+    allowed = dict(
+        universal=[], cylindrical=["Pz", "P"], prismatic=["Pz"], planar=["Px", "Py", "P"], rigid=[]
+    )[kind]
     assert gap() == pytest.approx((0.0, 0.0), abs=1e-12)
     for name in set(skeleton.free) - {"1"}:
         if kind == "universal" and name in ("P", "Pb"):
@@ -129,19 +122,19 @@ rows = [["L", "P", "0e", "{kind}"]]
         assert (angle if turn else distance) == pytest.approx(expected, abs=1e-9), name
 
 
-def five_bar(*changes: tuple[str, str]) -> tuple[Skeleton, Posture]:
+def five_bar(*changes: tuple[str, str]) -> tuple[robot_skeleton.Skeleton, robot_skeleton.Posture]:
     """The five-bar with other values, and its posture at home."""
-    skeleton = build_skeleton(
+    skeleton = robot_skeleton.build_skeleton(
         parse_robot_text(edited(read_builtin_robot("five-bar"), *changes), "five-bar")
     )
-    return skeleton, find_home_posture(skeleton)
+    return skeleton, robot_skeleton.find_home_posture(skeleton)
 
 
 def test_loops_that_cannot_close_are_seen_open() -> None:
     skeleton, posture = five_bar(("L0 = 0.20", "L0 = 5.0"))
     assert not posture.is_closed
     np.testing.assert_array_equal(posture.u, skeleton.stated)
-    assert compute_gaps(skeleton, posture.u)[0].distance > 3.0
+    assert robot_skeleton.compute_gaps(skeleton, posture.u)[0].distance > 3.0
 
 
 def test_actuated_joints_that_are_stated_wrongly_are_told() -> None:
@@ -151,12 +144,12 @@ def test_actuated_joints_that_are_stated_wrongly_are_told() -> None:
 
 
 def test_what_could_move_with_the_motors_locked_is_told(loop_robots_folder: FurtherRobots) -> None:
-    singular = build_skeleton(read_robot(loop_robots_folder / "3rpr_singular.toml"))
+    singular = robot_skeleton.build_skeleton(read_robot(loop_robots_folder / "3rpr_singular.toml"))
     assert {"P"} <= set(
-        find_home_posture(singular).loose_joints
+        robot_skeleton.find_home_posture(singular).loose_joints
     )  # cylinders through one point: it turns
-    other = build_skeleton(read_robot(loop_robots_folder / "3rpr_sim.toml"))
-    assert find_home_posture(other).loose_joints == ()
+    other = robot_skeleton.build_skeleton(read_robot(loop_robots_folder / "3rpr_sim.toml"))
+    assert robot_skeleton.find_home_posture(other).loose_joints == ()
 
 
 def test_a_stretched_linkage_is_singular() -> None:
@@ -168,10 +161,10 @@ def test_a_stretched_linkage_is_singular() -> None:
 def test_opposite_axes_are_not_closed() -> None:
     row = '["9",  "8",  0,    0,       0,       '
     text = edited(read_builtin_robot("sr400"), (row + "0, ", row + '"pi", '))
-    skeleton = build_skeleton(parse_robot_text(text, "sr400"))
-    pose = find_home_posture(skeleton)
+    skeleton = robot_skeleton.build_skeleton(parse_robot_text(text, "sr400"))
+    pose = robot_skeleton.find_home_posture(skeleton)
     assert not pose.is_closed
-    assert compute_gaps(skeleton, pose.u)[0].angle == pytest.approx(np.pi)
+    assert robot_skeleton.compute_gaps(skeleton, pose.u)[0].angle == pytest.approx(np.pi)
 
 
 @pytest.mark.parametrize("name", ROBOTS)
