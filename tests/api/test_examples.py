@@ -68,13 +68,7 @@ def test_every_function_has_an_example() -> None:
     assert lacking <= {"from_identified", "find_logs", "fittedvalues"} and len(methods) > 12
 
 
-ROTATE = (
-    "modeler.api.motion",
-    "modeler.api.checks",
-    "modeler.api.fitting",
-    "modeler.api.fleets",
-    "modeler.api.workflow",
-)
+ROTATE = tuple(f"modeler.api.{name}" for name in "motion checks fitting fleets workflow".split())
 MARKS = {
     **dict.fromkeys(("modeler.api.improve", "modeler.api.model"), pytest.mark.slow),  # diagnose
     **dict.fromkeys(ROTATE, pytest.mark.rotating),

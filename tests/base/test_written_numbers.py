@@ -35,11 +35,8 @@ rows = [["1", 0, 0, "q1", 0], ["2", "-pi/2", {a}, "q2", 0], ["3", "pi/3", {b}, "
 
 def coefficients(robot):
     data = serialise_base_parameters("arm", derive(robot).base)
-    return {
-        (base["name"], term["parameter"]): term["coefficient"]
-        for base in data["base"]
-        for term in base["terms"]
-    }
+    terms = [(base["name"], term) for base in data["base"] for term in base["terms"]]
+    return {(name, term["parameter"]): term["coefficient"] for name, term in terms}
 
 
 def test_numbers_are_those_of_the_letters_exactly():
@@ -88,17 +85,10 @@ def test_closed_forms_show_what_was_written():
     sheet = formulas.derive_equation(derived.model, derived.base, motion=True, columns=True).sheet
     table = formulas.coefficients.build_coefficient_table(derived.model, derived.base)
     text, latex = (formulas.coefficients.format_closed_form(form, way) for way in ("text", "latex"))
-    rows = [
-        " ".join(row[3:])
-        for row in formulas.coefficients.format_table_lines(table)
-        if "PS" in row[0]
-    ]
-    for page in (
-        text,
-        latex,
-        formulas.function_sheet.format_sheet(sheet, "markdown"),
-        "\n".join(rows),
-    ):
+    lines = formulas.coefficients.format_table_lines(table)
+    rows = [" ".join(row[3:]) for row in lines if "PS" in row[0]]
+    written = formulas.function_sheet.format_sheet(sheet, "markdown")
+    for page in (text, latex, written, "\n".join(rows)):
         assert not BIG.search(page)
         assert "0.4318" in page and "7/20" not in page
     assert "9.81" in text and r"\cos{(0.35)}" in latex

@@ -18,10 +18,8 @@ def test_derive_says_what_a_script_reads(capsys, tmp_path):
     assert set(raw["counts"]) == {"inertial", "rotor_inertia", "friction", "offset"}
     assert raw["rank_gap"][0] > 1e6 * raw["rank_gap"][1]
     assert raw["newton_euler_against_lagrange"] < 1e-12
-    assert raw["base"][0]["terms"][0] == {
-        "coefficient": "1",
-        "parameter": raw["base"][0]["column_of"],
-    }
+    first = raw["base"][0]
+    assert first["terms"][0] == {"coefficient": "1", "parameter": first["column_of"]}
     for entry in raw["base"]:
         assert f"{entry['name']} = " in out
 

@@ -125,12 +125,8 @@ def counted(found):
         name: {k: v for k, v in joint.items() if k not in left}
         for name, joint in found["joints"].items()
     }
-    return flat(
-        {
-            "joints": joints,
-            **{k: found[k] for k in ("samples", "relative_error", "by_log", "by_unit", "logs")},
-        }
-    )
+    keys = ("samples", "relative_error", "by_log", "by_unit", "logs")
+    return flat({"joints": joints, **{k: found[k] for k in keys}})
 
 
 def flat(found, name=""):

@@ -51,20 +51,15 @@ def test_every_page_can_be_opened() -> None:
 def test_robot_or_model_first_logs_last() -> None:
     for command, subparser in PARSERS.items():
         kinds = [action.type for action in parser.collect_arguments(subparser)]
-        first = [
-            i
-            for i, kind in enumerate(kinds)
-            if kind in (places.RobotFile, places.ModelFile, places.RobotOrModel)
-        ]
+        read = (places.RobotFile, places.ModelFile, places.RobotOrModel)
+        first = [i for i, kind in enumerate(kinds) if kind in read]
         logs = [i for i, k in enumerate(kinds) if k in (places.LogFile, places.parse_model_or_log)]
         assert first in ([], [0]) and logs in ([], [len(kinds) - 1]), command
 
 
 def test_each_command_has_a_family_and_an_example_that_can_be_typed() -> None:
-    assert (
-        list(parser.read_families())
-        == "workbench describe measure identify understand use about".split()
-    )
+    families = "workbench describe measure identify understand use about".split()
+    assert list(parser.read_families()) == families
     assert list(PARSERS) == list(parser.read_commands())
     for name, subparser in PARSERS.items():
         lines = re.findall(r"modeler ([^;>]+)", (subparser.epilog or "").replace(')"', ""))

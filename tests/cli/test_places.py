@@ -78,11 +78,8 @@ def is_a(action: argparse.Action, *kinds: type) -> bool:
 def test_every_argument_says_what_it_is() -> None:
     """A new one cannot be forgotten: a bare text might be the name of a file."""
     for command, action in actions():
-        plain = (
-            action.nargs == 0
-            or action.choices
-            or action.type in (int, float, places.parse_model_or_log)
-        )
+        types = (int, float, places.parse_model_or_log)
+        plain = action.nargs == 0 or action.choices or action.type in types
         assert plain or is_a(
             action, places.Word, places.Input, places.Output, places.OutputFolder
         ), (command, action.dest)

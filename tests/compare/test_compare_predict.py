@@ -110,13 +110,7 @@ def test_the_same_log_twice_is_no_repetition(machine: Machine) -> None:
     """Its noise would be called repeatable."""
     motion = wandering(np.arange(0.0, 25.0, 1.0 / RATE))
     log = machine.log("one.csv", motion, 4)
-    again = Log(
-        name="again.csv",
-        joints=log.joints,
-        time=log.time[2000:],
-        q=log.q[2000:],
-        tau=log.tau[2000:],
-    )
+    again = Log("again.csv", log.joints, log.time[2000:], log.q[2000:], log.tau[2000:])
     for other in (again, log):
         item = machine.compared(log, other).joints[1]
         assert item.shares is not None and item.shares.method == "smooth"

@@ -150,12 +150,8 @@ def test_what_returns_is_told_and_noise_is_not() -> None:
 def test_standard_error_of_the_repeatable_share() -> None:
     """Its scatter over seeds is what it says."""
     time = np.arange(0.0, 3 * PERIOD, STEP)
-    values = [
-        compare(judged_alone(measured([(time, motion(time, PERIOD))], KNOWN, seed), 0))
-        .joints[0]
-        .shares
-        for seed in range(12)
-    ]
+    logs = [measured([(time, motion(time, PERIOD))], KNOWN, seed) for seed in range(12)]
+    values = [compare(judged_alone(log, 0)).joints[0].shares for log in logs]
     scatter = np.std([each.systematic_share for each in values if each is not None])
     value = np.mean([each.sigma for each in values if each is not None and each.sigma is not None])
     assert 0.5 < value / scatter < 2.5  # the known part's own products count as scatter too

@@ -228,12 +228,8 @@ def test_friction_that_changes_with_temperature() -> None:
     known = float(np.var(0.15 * (p.temperature[:, 1] - 30.0)))
     assert share.get_share("temperature") == pytest.approx(known / (known + NOISE**2), abs=0.08)
     assert "repeatable function of temperature" in verdict.write_joint_verdict(result.joints[1])
-    titles = [
-        panel.title
-        for picture in draw_all_pictures(result)
-        for row in picture.panels
-        for panel in row
-    ]
+    rows = [row for picture in draw_all_pictures(result) for row in picture.panels]
+    titles = [panel.title for row in rows for panel in row]
     assert sum(title.startswith("Temperature") for title in titles) == 3
     heat = draw_all_pictures(result)[0].panels[2][0].series[0]
     assert "temperature" in heat.columns
@@ -303,10 +299,8 @@ def coupled(motors: tuple[Motor, ...]) -> Prediction:
 
 def test_the_speed_of_a_motor_is_told_from_that_of_a_joint() -> None:
     (item,) = compare(judged_alone(coupled((Motor("2+3", (0.0, 1.0, 2.0)),)))).joints
-    assert (
-        "follows the velocity of the motor that turns with joints 2 and 3"
-        in verdict.write_joint_verdict(item)
-    )
+    text = verdict.write_joint_verdict(item)
+    assert "follows the velocity of the motor that turns with joints 2 and 3" in text
     assert item.structure is not None
     assert dict(item.structure.motors)["2+3"] == pytest.approx(4.0 / 4.25, abs=0.06)
 

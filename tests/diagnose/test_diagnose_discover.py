@@ -102,10 +102,8 @@ def test_units_follow_from_what_is_read(case: Case) -> None:
     for names, unit in UNITS.items():
         formula = Formula((tuple(every[name] for name in names),))
         candidate = formula.build_candidate([joint.name for joint in spec.joints], 1)
-        assert (
-            derive_parameter_unit(spec, 1, candidate, 0, formula.find_nonlinear_units(False))
-            == unit
-        ), names
+        units = formula.find_nonlinear_units(False)
+        assert derive_parameter_unit(spec, 1, candidate, 0, units) == unit, names
         assert all(math.isfinite(value) for value in formula.nonlinear_parameters.values())
 
 

@@ -116,12 +116,8 @@ def test_a_body_has_the_inertia_of_a_body(monkeypatch, inertia, built):
     monkeypatch.setattr(plausibility, "list_body_parameters", lambda candidate, signals: felt)
     monkeypatch.setattr(plausibility, "build_columns", lambda rows, candidate: (columns,))
     made, payload = state(), pick("payload")
-    made.picks, made.values, made.sigma, made.data.free_columns = (
-        (payload,),
-        [np.array(values)],
-        [1.0],
-        [],
-    )
+    made.picks, made.values = (payload,), [np.array(values)]
+    made.sigma, made.data.free_columns = [1.0], []
     made.rows.signals, made.rows.W = [None], [np.zeros((100, 0))]
     said = dict(zip(["XX", "YY", "ZZ", "MX", "mass"], values, strict=True))
     assert (find_caveat(made, payload, said) == "") is built

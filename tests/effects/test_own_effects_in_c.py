@@ -105,12 +105,9 @@ def test_an_equation_reads_the_motion_of_other_joints(precision):
     q, v, a = np.random.default_rng(13).uniform(-2.0, 2.0, (3, SAMPLES, 3))
     phi = arm.regressor(q, v, a)
     got = columns_of(robot, "leaning", arm, phi)
-    wanted = np.column_stack(
-        [
-            v[:, 1] * np.exp(-((q[:, 2] / 0.8) ** 2)),
-            a[:, 0] * np.sin(q[:, 1]) + v[:, 2] * np.abs(v[:, 0]),
-        ]
-    )
+    eddies = v[:, 1] * np.exp(-((q[:, 2] / 0.8) ** 2))
+    others = a[:, 0] * np.sin(q[:, 1]) + v[:, 2] * np.abs(v[:, 0])
+    wanted = np.column_stack([eddies, others])
     close = (
         {"rtol": 1e-12, "atol": 1e-14} if precision == "double" else {"rtol": 2e-5, "atol": 1e-6}
     )

@@ -252,15 +252,8 @@ def pieces(seed):
     rows = np.arange(100, clean.samples - 100, 5)
     rows = rows[np.arange(len(rows)) % 60 < 47]
     q = clean.q[rows] + 1e-3 * random.normal(size=(len(rows), 2))
-    return Log(
-        "pieces",
-        log.joints,
-        clean.time[rows],
-        q,
-        log.tau[rows],
-        qd=clean.qd[rows],
-        qdd=clean.qdd[rows],
-    )
+    t, qd, qdd, tau = (x[rows] for x in (clean.time, clean.qd, clean.qdd, log.tau))
+    return Log("pieces", log.joints, t, q, tau, qd=qd, qdd=qdd)
 
 
 @slow_rotating("estimators on logs")

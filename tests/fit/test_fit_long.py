@@ -199,10 +199,8 @@ def test_noise_is_a_larger_share_of_slower_motion_and_no_doubt(small_windows):
     fit = identify_long(streamed_log(noisy_log()))
     errors = np.array([joint.relative_error for joint in fit.joints]) / 4.0
     assert not find_unexplained_joints(fit, CrossValidation(errors, 1.0, 9), np.array([0.25, 0.25]))
-    assert (
-        len(find_unexplained_joints(fit, CrossValidation(errors, 1.0, 9), np.array([1.0, 4.0])))
-        == 2
-    )
+    validated = CrossValidation(errors, 1.0, 9)
+    assert len(find_unexplained_joints(fit, validated, np.array([1.0, 4.0]))) == 2
 
 
 def test_a_drive_limit_that_the_windows_reach_and_others_exceed_costs_a_second_pass(small_windows):
@@ -271,10 +269,8 @@ def test_a_logger_that_is_slow_while_the_robot_rests_has_one_unit(small_windows)
     time[9000:] = time[9000] + 200.0 * (time[9000:] - time[9000])
     q[9000:] = q[9000]
     slow = dataclasses.replace(log, time=time, q=q)
-    assert (
-        choose_from_windows(arm(), [MemorySource(slow)], Processing(), KnownFacts(), ROWS).windows
-        == 4
-    )
+    chosen = choose_from_windows(arm(), [MemorySource(slow)], Processing(), KnownFacts(), ROWS)
+    assert chosen.windows == 4
 
 
 def test_threads_change_nothing(monkeypatch):

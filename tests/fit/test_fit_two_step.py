@@ -90,13 +90,8 @@ def test_step_one_finds_the_inertia_gravity_and_friction_of_the_paper(exact):
         J11 = PJ1 * s3**2 * s2**2 + PJ2 * s3 * c3 * s2**2 + PJ3 * s2**2 + PJ4 * s2 * c2 * s3
         J11 += PJ5 * c2 * s2 * c3 + PJ6 * c2 * s2 + p["ZZ1R"] + p["ZZ3"]
         J11 += 0.4**2 * p["Iam2"] + 0.2**2 * p["Iam3"]  # G21, G31; Jm1 is in ZZ1R
-        found = dict(
-            zip(
-                c.first_steps[0].along.names,
-                np.linalg.solve(c.first_steps[0].R, c.first_steps[0].projected),
-                strict=True,
-            )
-        )
+        first = c.first_steps[0]
+        found = dict(zip(first.along.names, np.linalg.solve(first.R, first.projected), strict=True))
         assert set(found) == {"qdd", "sin", "cos", "sign qd", "qd"}
         assert found["qdd"] == pytest.approx(J11, rel=1e-9)
         assert found["sign qd"] == pytest.approx(3.0 + 0.4 * 2.0 + 0.2 * 1.2, rel=1e-9)
@@ -185,13 +180,8 @@ def test_logs_without_such_a_piece_are_refused(tmp_path, capsys):
     assert "use --method weighted" in str(error.value) and "\n" not in str(error.value)
     path = tmp_path / "joints.csv"  # of joints, not of motors
     names = ["time", *(f"q{j}" for j in log.joints), *(f"tau{j}" for j in log.joints)]
-    np.savetxt(
-        path,
-        np.column_stack([log.time, log.q, log.tau]),
-        delimiter=",",
-        header=",".join(names),
-        comments="",
-    )
+    rows = np.column_stack([log.time, log.q, log.tau])
+    np.savetxt(path, rows, delimiter=",", header=",".join(names), comments="")
     out = str(tmp_path / "x.json")
     assert main(["fit", "wrist-coupled", str(path), "--method", "two-step", "--out", out]) == 1
     assert "no column qm1" in capsys.readouterr().err

@@ -115,12 +115,8 @@ def logs(scene: Scene, seed: int, robot: str = "two-link") -> list[tuple[LogName
                     beta = beta + plant.by_period[p] * _load(model)
                 elif plant.machine == m:
                     beta[names.index(plant.name)] *= 1.0 + plant.by_period[p]
-            values.append(
-                (
-                    LogName(f"r{m + 1}", f"day{p + 1}", f"r{m + 1}/day{p + 1}.csv"),
-                    _log(model, beta, gains, scene, rng, p),
-                )
-            )
+            name = LogName(f"r{m + 1}", f"day{p + 1}", f"r{m + 1}/day{p + 1}.csv")
+            values.append((name, _log(model, beta, gains, scene, rng, p)))
     return values
 
 

@@ -138,12 +138,8 @@ def test_sigmas_are_those_of_coloured_noise() -> None:
 
 def test_what_may_drift_and_what_a_load_changes() -> None:
     layout = build_layout(emitted().spec)
-    assert [q.parameter for q in layout.quantities] == [
-        *"Fv1 Fs1 Fv2 Fs2".split(),
-        "gain 1",
-        "gain 2",
-        "load",
-    ]
+    names = [*"Fv1 Fs1 Fv2 Fs2".split(), "gain 1", "gain 2", "load"]
+    assert [q.parameter for q in layout.quantities] == names
     assert layout.gain_joints == [0, 1] and layout.quantities[-1].effect == LOAD
     assert {q.effect for q in layout.drifting} == {"viscous", "coulomb", GAIN}
     model, rng = compiled(), np.random.default_rng(1)

@@ -120,13 +120,8 @@ class Plant:
         known = [np.ascontiguousarray(x, float) for x in (wanted, rate(wanted), temperature)]
         run = Run(*(np.zeros((count, n)) for count in (ticks, STEPS * ticks, ticks, ticks)))
         left = (run.encoder, run.torque, run.temperature, run.link)
-        lost = loaded.simulate(
-            self._struct,
-            ticks,
-            *(_pointer(ffi, x) for x in known),
-            seed,
-            *(_pointer(ffi, x) for x in left),
-        )
+        before, after = ([_pointer(ffi, x) for x in some] for some in (known, left))
+        lost = loaded.simulate(self._struct, ticks, *before, seed, *after)
         finite = np.isfinite(run.torque.sum() + run.encoder.sum())
         return None if lost or not finite or np.abs(run.encoder - wanted).max() > RUNAWAY else run
 

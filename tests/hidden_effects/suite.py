@@ -79,13 +79,8 @@ def _no_truth(case: Case) -> dict[str, Any]:
     """Of a case that could not be made: what was requested, invisible."""
     hidden: list[dict[str, Any]]
     hidden = [{"effect": name, "joint": None, "values": {}} for name in case.effects]
-    return {
-        "hidden": hidden,
-        "visible": [0.0],
-        "noise": case.noise,
-        "robot": case.kind or "any",
-        "sensor": {"kind": case.sensor},
-    }
+    robot, sensor = case.kind or "any", {"kind": case.sensor}
+    return dict(hidden=hidden, visible=[0.0], noise=case.noise, robot=robot, sensor=sensor)
 
 
 def run(cases, folder, jobs=1, tell=print):

@@ -20,13 +20,8 @@ def truth(*hidden, visible=1.0, noise="med", sensor=FINE):
         for e, j, *more in hidden
     ]
     of_joint = {"joint": "2"} if SENSORS[sensor].of_joint else {}
-    return {
-        "hidden": named,
-        "visible": [visible] * len(named),
-        "noise": noise,
-        "robot": "3R",
-        "sensor": {"kind": sensor} | of_joint,
-    }
+    seen, by = [visible] * len(named), {"kind": sensor} | of_joint
+    return dict(hidden=named, visible=seen, noise=noise, robot="3R", sensor=by)
 
 
 def said(*findings, ties=(), data=(), verdict="missing"):

@@ -52,10 +52,8 @@ def test_one_joint_that_falls_is_not_drowned_by_others_that_are_larger() -> None
     old = [coloured(0, 0), 5.0 * coloured(0, 1)]
     seen = score_change(unseen(*old), unseen(0.6 * old[0], (1.0 + 1e-5) * old[1]))
     assert seen.is_better and seen.changed_joints == ("1",)
-    assert (
-        format_error_changes(seen.errors, seen.changed_joints)
-        == "joint 1 10 % -> 6 %; other joints unchanged"
-    )
+    text = format_error_changes(seen.errors, seen.changed_joints)
+    assert text == "joint 1 10 % -> 6 %; other joints unchanged"
 
 
 def test_what_is_printed_falls_or_the_step_is_not_kept() -> None:

@@ -61,10 +61,8 @@ def check_bound(emitted: EmittedModule, folder: Path) -> None:
     assert np.all(result[moved > 1e5, 0] != DONE)
     text = emitted.files[f"{emitted.spec.prefix}.h"]
     assert int(re.search(r"_MAX_CLOSURE_EVALUATIONS (\d+)", text)[1]) == allowed
-    assert (
-        f"{emitted.spec.prefix.upper()}_MAX_CLOSURE_EVALUATIONS` times"
-        in emitted.files["README.md"]
-    )
+    name = f"{emitted.spec.prefix.upper()}_MAX_CLOSURE_EVALUATIONS"
+    assert f"{name}` times" in emitted.files["README.md"]
 
 
 @pytest.mark.parametrize("name", ROBOTS)

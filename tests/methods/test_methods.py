@@ -95,10 +95,8 @@ def test_a_value_far_from_the_truth_is_not_recovered():
     assert methods.judge_recovery("M", "1", 1.0, 1.0, 0.49).outcome is methods.Outcome.RECOVERED
     assert methods.judge_recovery("M", "1", 1.0, 1.0, 0.63).reason.startswith("sigma 63 %")
     for truth, value, sigma in ((1.0, 1.0, 0.63), (0.0, 0.0, 0.1), (0.0, 0.01, 0.01)):
-        assert (
-            methods.judge_recovery("M", "1", truth, value, sigma).outcome
-            is methods.Outcome.UNDETERMINED
-        )
+        judged = methods.judge_recovery("M", "1", truth, value, sigma)
+        assert judged.outcome is methods.Outcome.UNDETERMINED
 
 
 def test_the_truth_of_a_simulation_is_read_from_the_quotations():

@@ -15,12 +15,8 @@ def fourier(random, t, joints, fastest, size, slowest=0.1, falling=False):
     a = random.uniform(*size, w.shape)
     a = a / np.arange(1, 4)[:, None] if falling else a
     angle = t[:, None, None] * w + random.uniform(0.0, 6.0, w.shape)
-    return (
-        t,
-        (a * np.sin(angle)).sum(1),
-        (a * w * np.cos(angle)).sum(1),
-        -(a * w**2 * np.sin(angle)).sum(1),
-    )
+    sine, cosine = np.sin(angle), np.cos(angle)
+    return t, (a * sine).sum(1), (a * w * cosine).sum(1), -(a * w**2 * sine).sum(1)
 
 
 def motion(joints, seconds=20.0, rate=200, seed=0):

@@ -118,10 +118,8 @@ def test_a_joint_that_sticks_before_it_turns_back_is_not_clipped():
         q = np.round(stopped / 3.8e-4) * 3.8e-4
         assert noise.find_clips(q) == ()
     cut = np.clip(0.4 * np.sin(1.3 * t), -0.3, 0.25)
-    assert [(clip.value, clip.upper) for clip in noise.find_clips(cut)] == [
-        (0.25, True),
-        (-0.3, False),
-    ]
+    clips = [(clip.value, clip.upper) for clip in noise.find_clips(cut)]
+    assert clips == [(0.25, True), (-0.3, False)]
 
 
 def test_a_claim_that_the_fit_does_not_confirm_changes_nothing():

@@ -23,12 +23,8 @@ def sines(rate=100, seconds=20.0):
     t = np.arange(int(rate * seconds)) / rate
     w, a = 2 * np.pi * np.array([[0.3, 0.45], [0.8, 0.7]]), np.array([[1.0, 0.7], [0.2, 0.3]])
     angle = t[:, None, None] * w + np.array([[0.0, 1.0], [2.0, 0.5]])
-    return (
-        t,
-        (a * np.sin(angle)).sum(1),
-        (a * w * np.cos(angle)).sum(1),
-        -(a * w**2 * np.sin(angle)).sum(1),
-    )
+    sine, cosine = np.sin(angle), np.cos(angle)
+    return t, (a * sine).sum(1), (a * w * cosine).sum(1), -(a * w**2 * sine).sum(1)
 
 
 def log_of(t, q, qd, qdd=None, **more):

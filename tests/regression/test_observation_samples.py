@@ -143,10 +143,8 @@ def test_logged_derivatives_are_taken_as_asked():
 
 def test_a_piece_that_is_all_edge_is_left_out():
     time = np.arange(20) * 1e-3
-    assert (
-        build_segment(split_log(log_of(time), 0, False)[0][0], Processing(position_cutoff=30.0))
-        is None
-    )
+    pieces = split_log(log_of(time), 0, False)[0]
+    assert build_segment(pieces[0], Processing(position_cutoff=30.0)) is None
 
 
 def noise_in(*pieces):

@@ -101,10 +101,8 @@ def test_the_set_that_suffices_is_told_and_the_answer_is_the_same_twice() -> Non
 
 def test_nothing_is_said_of_few_rows_or_a_constant() -> None:
     m = measured(4, rows=90)
-    assert (
-        fit_nonparametric_baseline(generate_function_sets(m), noise(4, rows=90), fold(90)).share
-        == 0.0
-    )
+    fit = fit_nonparametric_baseline(generate_function_sets(m), noise(4, rows=90), fold(90))
+    assert fit.share == 0.0
     m = measured(4, rows=300)
     fit = fit_nonparametric_baseline(generate_function_sets(m), np.full(300, 2.0), fold(300))
     assert fit.share == 0.0 and not fit.is_significant

@@ -164,12 +164,8 @@ def mutants(text: str, rng: np.random.Generator) -> list[str]:
     name, leader = (re.search(r'<joint\b[^>]*\bname\s*=\s*"([^"]*)"', j) for j in (one, first))
     child = re.search(r'<child\s+link\s*=\s*"([^"]*)"', one)
     assert name and leader and child
-    names = {
-        "joint": name[1],
-        "first": leader[1],
-        "child": child[1],
-        "root": read_urdf_tree(text.encode(), "x.urdf").root,
-    }
+    root = read_urdf_tree(text.encode(), "x.urdf").root
+    names = dict(joint=name[1], first=leader[1], child=child[1], root=root)
     changed = [text.replace("</robot>", tie.format(**names) + "</robot>") for tie in TIES]
     for more in INSIDE:
         tag = re.match(r"<([\w:]+)", more)

@@ -24,10 +24,8 @@ def test_the_good_file_is_read():
     assert find_effect("eddy_brake") is None
     assert find_effect("eddy_brake", robot.catalogue) is eddy
     assert (eddy.title, eddy.acts) == ("drag of a magnet", EffectTarget.JOINT)
-    assert [shape.grid for shape in eddy.forms[0].nonlinear_parameters] == [
-        (-1.0, 0.0, 1.0),
-        (0.1, 0.3),
-    ]
+    grids = [shape.grid for shape in eddy.forms[0].nonlinear_parameters]
+    assert grids == [(-1.0, 0.0, 1.0), (0.1, 0.3)]
     assert eddy.columns[0].nonnegative and not wave.columns[0].nonnegative
     assert [c.unit_revolute for c in (*eddy.columns, *wave.columns)] == ["N*m*s/rad", "SI", "rad"]
     assert wave.acts is EffectTarget.POSITION and not wave.forms[0].free_parameters
@@ -86,10 +84,8 @@ def test_names_become_tables_where_one_has_values():
     text = OWN_EFFECTS + '\n[own_effects.fade]\ncolumns = {Kf = "exp(-t/5)"}\n'
     once = replace_effects(text, {"fade": ["1"]})
     twice = parse_robot_text(insert_effect(once, "fade", "2", {"t0": 3.0}), "arm").effects[0]
-    assert [(i.joint, dict(i.nonlinear_parameters)) for i in twice.instances] == [
-        ("1", {}),
-        ("2", {"t0": 3.0}),
-    ]
+    stated = [(i.joint, dict(i.nonlinear_parameters)) for i in twice.instances]
+    assert stated == [("1", {}), ("2", {"t0": 3.0})]
 
 
 def test_from_python_without_a_file():

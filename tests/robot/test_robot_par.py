@@ -69,30 +69,14 @@ def test_numbers_keep_the_structure_of_a_loop():
     assert len(twin.symbols) == 6  # g, D2, D3, D4, R4, D8: RL4 is on no loop, and no length of it
 
 
-@with_cases(
-    "digits, angle",
-    ("1.5708", "pi/2"),
-    ("-1.571", "-pi/2"),
-    ("1.57", "pi/2"),
-    ("1.57080", "pi/2"),
-    ("3.1415", "pi"),
-    ("0.2618", "pi/12"),
-    ("-4.7124", "-3*pi/2"),
-    ("6.2832", "2*pi"),
-    ("1.5707963267948966", "pi/2"),
-    ("15.708e-1", "pi/2"),
-    ("0.785398163", "pi/4"),
-    ("0", None),
-    ("0.0001", None),
-    ("2.880", "11*pi/12"),
-    ("2.88", None),
-    ("0.260000", None),
-    ("1.58", None),
-    ("0.79", None),
-    ("2", None),
-    ("1.57090", None),
-    ("0.785398173", None),
-)
+ROUNDED = """
+    1.5708 pi/2; -1.571 -pi/2; 1.57 pi/2; 1.57080 pi/2; 3.1415 pi; 0.2618 pi/12; -4.7124 -3*pi/2;
+    6.2832 2*pi; 1.5707963267948966 pi/2; 15.708e-1 pi/2; 0.785398163 pi/4; 2.880 11*pi/12
+"""
+NOT_ROUNDED = "0 0.0001 2.88 0.260000 1.58 0.79 2 1.57090 0.785398173".split()
+
+
+@with_cases("digits, angle", *map(str.split, ROUNDED.split(";")), *((x, None) for x in NOT_ROUNDED))
 def test_rounded_angles(digits, angle):
     assert recognise_angle(digits) == angle
 

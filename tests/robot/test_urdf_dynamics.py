@@ -129,11 +129,8 @@ def motion(robot: Robot, samples: int, name: str) -> np.ndarray:
 
 
 def chi_of(robot: Robot) -> np.ndarray:
-    names = [
-        f"{p}{row.name}"
-        for row in robot.moving_joints
-        for p in robot.get_inertial_prefixes(row.name)
-    ]
+    joints = [row.name for row in robot.moving_joints]
+    names = [f"{p}{joint}" for joint in joints for p in robot.get_inertial_prefixes(joint)]
     return np.array([robot.parameters.get(name, 0.0) for name in names])
 
 

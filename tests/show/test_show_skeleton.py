@@ -63,10 +63,8 @@ def test_home_is_the_posture_that_the_simulator_closes(name: str) -> None:
         skeleton.robot, build_constraints(skeleton.robot), start[None]
     )[0]
     np.testing.assert_allclose(variables(skeleton, home.u), theirs, atol=1e-8)
-    assert all(
-        gap.distance < 1e-9 and gap.angle < 1e-7
-        for gap in robot_skeleton.compute_gaps(skeleton, home.u)
-    )
+    gaps = robot_skeleton.compute_gaps(skeleton, home.u)
+    assert all(gap.distance < 1e-9 and gap.angle < 1e-7 for gap in gaps)
     again = robot_skeleton.solve_closure(skeleton, home.u, skeleton.dependent_places, home.size)
     np.testing.assert_allclose(again, home.u, atol=1e-9)
 
