@@ -64,7 +64,7 @@ ONLY_IN = {
     "cupy": ("runtime/gpu.py",),
     "cffi": ("runtime/bind.py",),
     "casadi": ("derivation/lagrange.py", "codegen/casadi_functions.py", "simulation/"),
-    "clarabel": ("numerics/cones.py",),
+    "clarabel": ("numerics/least_squares.py",),
     "flint": ("derivation/field.py", "derivation/precise.py"),
     "pandas": ("core/table.py",),
     "h5py": ("logs/arrays.py",),

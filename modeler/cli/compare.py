@@ -9,7 +9,7 @@ from modeler import validation
 from modeler.api.model import is_model_file
 from modeler.cli.console import draw_page, draw_pictures, print_lines
 from modeler.cli.documents import ComparisonReport
-from modeler.cli.lists import REPORTER, read_robot_with_notes
+from modeler.cli.lists import build_reporter, read_robot_with_notes
 from modeler.cli.places import LogFile
 from modeler.core.choices import LOG_ENDINGS
 from modeler.core.errors import DataError
@@ -32,7 +32,7 @@ def run_compare(
     if others:
         return _run_model_comparison(args, [args.model, *others], options)
     run = checks.compare_with_provenance(
-        _read_model(args.model), args.logs, options, args.mapping, REPORTER
+        _read_model(args.model), args.logs, options, args.mapping, build_reporter()
     )
     print_lines(run.format_lines())
     following, comparison = _suggest_next(args, run), run.comparison
@@ -66,7 +66,7 @@ def _run_model_comparison(
         )
     named = dict(zip(checks.choose_names(places), things, strict=True))
     comparison, lines, models, is_held_out = checks.compare_named_models(
-        named, logs, options, args.mapping, REPORTER
+        named, logs, options, args.mapping, build_reporter()
     )
     warnings = (line for model in models for line in model.warning)
     print_lines([*validation.format_model_comparison(comparison), *lines, *warnings])
@@ -92,7 +92,7 @@ def _run_free_run(args: argparse.Namespace, options: CompareOptions) -> validati
     """Prints the table and the verdict; writes the pictures."""
     settings = checks.build_free_run_settings(options)
     run, model = checks.simulate_positions(
-        _read_model(args.model), args.logs, options, settings, args.mapping, REPORTER
+        _read_model(args.model), args.logs, options, settings, args.mapping, build_reporter()
     )
     print_lines([*run.summary().splitlines(), *model.warning])
     draw_page(args.report, lambda: pages.build_free_run_page(run, Origin(args.model, run.logs)))

@@ -11,7 +11,7 @@ from modeler.api.log_maps import resolve_mapping
 from modeler.api.workflow import build_processing, compile_robot
 from modeler.cli.console import draw_result, print_lines, print_result, show_activity, show_next
 from modeler.cli.documents import FitReport, MethodsReport
-from modeler.cli.lists import REPORTER, read_options, resolve_robot
+from modeler.cli.lists import build_reporter, read_options, resolve_robot
 from modeler.cli.parser import ALL, Methods
 from modeler.core.choices import ABOUT, GAIN_METHOD
 from modeler.core.files import write_atomically
@@ -52,7 +52,7 @@ def run_fit(args: argparse.Namespace) -> FitReport | MethodsReport:
         mapping, table = resolve_mapping(compiled_robot.compiled, args.logs, args.mapping)
     model, observation, outcome, _ = fitting.fit_logs(
         *(options, compiled_robot, args.logs, load, processing, mapping),
-        reporter=REPORTER,
+        reporter=build_reporter(),
         dask=args.dask,
     )
     fit = _write_model(args, table, model, observation, outcome.lines)
@@ -129,7 +129,7 @@ def _compare_methods(
         None if method == ALL else method.split(","),
         mapping=args.mapping,
         processing=processing,
-        reporter=REPORTER,
+        reporter=build_reporter(),
     )
     tried, lines = result.results, result.data
     tables = (
@@ -158,7 +158,7 @@ def run_fleet(args: argparse.Namespace) -> "Fleet":
         mapping=args.mapping,
         workers=args.workers,
         dask=args.dask,
-        reporter=REPORTER,
+        reporter=build_reporter(),
     )
     print_lines(format_fleet(result))
     draw_result(args, lambda: build_fleet_page(result))

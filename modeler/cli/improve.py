@@ -14,7 +14,7 @@ from modeler.cli.console import (
     write_pictures,
 )
 from modeler.cli.documents import AdditionReport, DiagnosisReport
-from modeler.cli.lists import REPORTER, read_options
+from modeler.cli.lists import build_reporter, read_options
 from modeler.core.files import write_atomically
 from modeler.core.options import AddOptions, DiagnoseOptions
 from modeler.core.table import DIGITS, format_percent
@@ -31,7 +31,7 @@ def run_diagnose(args: argparse.Namespace) -> DiagnosisReport:
     robot = parse_robot_text(model.robot_text, f"{args.model}, robot")
     options = read_options(args, DiagnoseOptions, "diagnose", robot.diagnose)
     diagnosis, case = improve.diagnose_logs(
-        model, args.logs, args.holdout, options, args.mapping, REPORTER
+        model, args.logs, args.holdout, options, args.mapping, build_reporter()
     )
     following = views.suggest_after_diagnosis(
         args.model, args.logs, args.holdout, diagnosis, args.effects_from
@@ -68,7 +68,7 @@ def run_add(args: argparse.Namespace) -> AdditionReport:
     model = load_model(args.model)
     better, left_out = improve.add_to_model(
         *(model, args.effect, args.logs, args.holdout),
-        *(AddOptions.from_names(vars(args)), args.mapping, REPORTER),
+        *(AddOptions.from_names(vars(args)), args.mapping, build_reporter()),
     )
     save_model(args.out, better)
     following = views.suggest_after_add(args.out, args.logs, args.holdout, better.fit)

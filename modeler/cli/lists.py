@@ -14,26 +14,25 @@ from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.choices import ABOUT, EstimatorInfo, list_builtin_robots
 from modeler.core.errors import DataError, RobotError
 from modeler.core.files import write_all_without_overwriting
-from modeler.core.jobs import Reporter
 from modeler.core.options import OptionError, Options
 from modeler.core.toml_cells import quote_value
 from modeler.effects import CATALOGUE, Effect, Form, find_effect
 from modeler.formats import read_robot
-from modeler.robot import (
-    Robot,
-    export_effect,
-    parse_robot_text,
-    replace_robot_effects as with_given_effects,
-    suggest_name,
-)
+from modeler.robot import Robot, parse_robot_text, suggest_name
 
 if TYPE_CHECKING:
+    from modeler.core.jobs import Reporter
     from modeler.estimation import IdentifiedModel
 
 O = TypeVar("O", bound=Options)
 
-REPORTER = Reporter(show_activity, show_progress, print_note)
-"""Of what an API function does, on the terminal."""
+
+def build_reporter() -> "Reporter":
+    """Builds the reporter of what an API function does, on the terminal."""
+    from modeler.core.jobs import Reporter  # loads what starts processes
+
+    return Reporter(show_activity, show_progress, print_note)
+
 
 # The signature of an effect: torque against what it depends on.
 
@@ -137,7 +136,9 @@ def read_robot_with_effects(args: argparse.Namespace) -> Robot:
     robot = read_robot_with_notes(args.robot)
     if args.effects is None:
         return robot
-    return with_given_effects(robot, args.effects, "--effects")
+    from modeler.robot import replace_robot_effects  # most runs state none
+
+    return replace_robot_effects(robot, args.effects, "--effects")
 
 
 def read_robot_with_notes(name: str) -> Robot:
@@ -216,6 +217,7 @@ def _export_effect(
 ) -> list[EffectSummary]:
     """Writes the definition of one effect, and its page."""
     from modeler import views  # the catalogue needs no pages
+    from modeler.robot import export_effect
 
     text = export_effect(robot, args.export)
     effect = find_effect(args.export, robot.own_effects)

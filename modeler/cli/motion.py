@@ -10,7 +10,7 @@ from modeler.api.motion_bounds import MotionCheck, judge_motion
 from modeler.api.thresholds import THRESHOLDS
 from modeler.cli.console import print_lines, print_result, show_activity
 from modeler.cli.documents import SimulatedRun
-from modeler.cli.lists import REPORTER, read_robot_or_model, resolve_robot
+from modeler.cli.lists import build_reporter, read_robot_or_model, resolve_robot
 from modeler.core.files import write_atomically
 from modeler.core.json import select_attributes
 from modeler.core.options import ExciteOptions, OptionError
@@ -50,7 +50,7 @@ def run_excite(
         check.require_passed()
         return check
     result = motions.search_motion(
-        subject, bounds, options, args.logs, between=args.between, reporter=REPORTER
+        subject, bounds, options, args.logs, between=args.between, reporter=build_reporter()
     )
     motion = result.motion
     print_lines(result.format_lines())
@@ -99,7 +99,7 @@ def run_simulate(args: argparse.Namespace) -> SimulatedRun:
         *(robot, args.out),
         hide=args.hide,
         motion=args.motion,
-        reporter=REPORTER,
+        reporter=build_reporter(),
         drive_gains=args.drive_gain,
         **settings,
     )

@@ -93,8 +93,7 @@ def _run_parsed(words: Sequence[str], phase: Phase) -> None:
 
 def _execute_command(args: "argparse.Namespace", phase: Phase, every_line: bool) -> None:
     with phase():
-        from modeler.cli.browser import open_page_when_done
-        from modeler.cli.console import announce_step, run_command, show_clock
+        from modeler.cli.console import announce_step, open_page_when_done, run_command, show_clock
         from modeler.cli.places import check_places
         from modeler.core.options import check_together
 

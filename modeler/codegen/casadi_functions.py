@@ -10,8 +10,7 @@ from typing import Any
 import casadi as ca
 
 from modeler.codegen import control, functions as layout
-from modeler.codegen.control import SMOOTH, Control
-from modeler.codegen.fitted import find_widths
+from modeler.codegen.control import SMOOTH, Control, find_widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.thresholds import THRESHOLDS
 from modeler.core.expression import BESIDE, LAW

@@ -17,22 +17,20 @@ from modeler.codegen.context import (
     build_symbol_lines,
 )
 from modeler.codegen.control import (
+    FITTED_UNIT,
     OBSERVATION,
     SMOOTH,
     UNIT as CONTROL_UNIT,
     Control,
     build_control_functions,
     build_fitted_control_functions,
-    select_roles,
-)
-from modeler.codegen.elimination import UNIT as TILE_UNIT, ClosingTile, Tile
-from modeler.codegen.fitted import (
-    UNIT,
     build_fitted_functions,
     check_values,
     find_widths,
     format_fitted_texts,
+    select_roles,
 )
+from modeler.codegen.elimination import UNIT as TILE_UNIT, ClosingTile, Tile
 from modeler.codegen.functions import CFunction
 from modeler.codegen.package import C_INTERFACE, LICENSE, build_package_files, make_origin
 from modeler.codegen.printers import build_a2l_files, build_cuda_files, build_structured_text
@@ -215,7 +213,7 @@ def emit(
         if cuda or control.a2l:
             raise EmitError(f"--{'cuda' if cuda else 'a2l'}: not with --only; generate two folders")
         selected = select_roles(every, control.only, model.robot.name)
-        units = {f.unit for f in every if f.role in selected} | {UNIT}
+        units = {f.unit for f in every if f.role in selected} | {FITTED_UNIT}
         units |= {"_batch"} if OBSERVATION in control.only else set()
     main, twins, more = ([f for f in part if f.role in selected] for part in parts)
     module = _build_module(model, base, OF_PRECISION[precision], solving, main, units, labels[0])
@@ -414,7 +412,7 @@ def _build_fitted_unit(
     values |= {"outer": [f for f in written if not f.internal]}
 
     def files(fitted: FittedSpec) -> dict[str, str]:
-        names = {f"{prefix}{UNIT}.{kind}": f"fitted.{kind}" for kind in ("h", "c")}
+        names = {f"{prefix}{FITTED_UNIT}.{kind}": f"fitted.{kind}" for kind in ("h", "c")}
         return {name: module.render(path, **values, fitted=fitted) for name, path in names.items()}
 
     # The signature stands in the unit, so it comes last: it covers all the rest.

@@ -9,8 +9,7 @@ from typing import Any
 from modeler.codegen import functions as layout
 from modeler.codegen.block import CUDA, DOUBLE, Target, format_legend, make_block
 from modeler.codegen.context import ModuleContext, build_law_tables, read_law_source
-from modeler.codegen.control import SMOOTH
-from modeler.codegen.fitted import Width, find_widths, format_fitted_texts
+from modeler.codegen.control import SMOOTH, Width, find_widths, format_fitted_texts
 from modeler.codegen.functions import CFunction
 from modeler.core.errors import EmitError
 from modeler.core.manifest import CUDA_THREADS, ModuleSpec

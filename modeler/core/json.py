@@ -1,4 +1,4 @@
-"""JSON both ways: dataclasses from plain data, every entry checked; texts without NaN."""
+"""Objects as text: JSON both ways, every entry checked, without NaN; a `repr` of one line."""
 
 import dataclasses
 import enum
@@ -8,10 +8,12 @@ import reprlib
 import sys
 import tomllib
 import types
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import cache
 from operator import attrgetter
 from typing import Any, ClassVar, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+
+from modeler.core.thresholds import THRESHOLDS
 
 # JSON and TOML that others wrote, read strictly; JSON that we write, without false numbers.
 
@@ -325,3 +327,62 @@ def _describe_mismatch(place: str, value: Any, expected: str) -> SchemaError:
 def _get_field_types(cls: Any) -> Mapping[str, Any]:
     names = {field.name for field in dataclasses.fields(cls)}
     return {name: hint for name, hint in get_type_hints(cls).items() if name in names}
+
+
+# What an object prints of itself: one short line, however much it holds.
+
+
+class ShortRepr:
+    """A base class: `repr` is one short line; dataclasses of it get no repr of their own."""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if "__repr__" not in cls.__dict__:
+            cls.__repr__ = format_repr  # type: ignore[method-assign]  # or @dataclass writes a long one
+
+
+def format_repr(thing: object) -> str:
+    """Returns `Name(field=value, ...)` as far as it fits.
+
+    Arrays by their shape, many entries counted.
+    """
+    name, line = type(thing).__name__, ""
+    for key, value in vars(thing).items():
+        if key.startswith("_"):
+            continue
+        part = f"{', ' if line else ''}{key}={_format_value(value)}"
+        if len(line) + len(part) > THRESHOLDS.max_repr_length:
+            return f"{name}({line}, ...)"
+        line += part
+    return f"{name}({line})"
+
+
+def _format_value(value: Any) -> str:
+    if isinstance(value, str):
+        text = repr(value)
+        return (
+            text
+            if len(text) <= THRESHOLDS.max_repr_text
+            else f"{text[: THRESHOLDS.max_repr_text - 4]}...'"
+        )
+    if value is None or isinstance(value, bool | int):
+        return repr(value)
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if hasattr(value, "shape") and hasattr(value, "dtype"):
+        return f"array{tuple(value.shape)}".replace(",)", ")")
+    if isinstance(value, Mapping):
+        return f"<{len(value)} entries>"
+    if isinstance(value, tuple | list | set | frozenset):
+        return _format_items(value)
+    return type(value).__name__
+
+
+def _format_items(items: Collection[Any]) -> str:
+    if len(items) <= THRESHOLDS.max_repr_items and all(
+        isinstance(x, str | int | float) for x in items
+    ):
+        text = f"({', '.join(_format_value(x) for x in items)})"
+        if len(text) <= THRESHOLDS.max_repr_text:
+            return text
+    return f"<{len(items)} items>"

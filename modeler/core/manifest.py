@@ -13,12 +13,12 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from modeler.core.brief import ShortRepr
 from modeler.core.choices import Precision
 from modeler.core.errors import ManifestError
 from modeler.core.json import (
     JsonError,
     SchemaError,
+    ShortRepr,
     build_instance,
     format_json,
     parse_json,

@@ -11,15 +11,16 @@ import json
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.core.json import convert_to_plain
-from modeler.core.table import Table
+from modeler.core.json import ShortRepr, convert_to_plain
 
-Tables = Mapping[str, Callable[[], Table]]
+if TYPE_CHECKING:
+    from modeler.core.table import Table
+
+Tables = Mapping[str, "Callable[[], Table]"]
 """Tables by name, the main one first."""
 
 Figures = Mapping[str, Callable[[], Any]]
@@ -79,7 +80,7 @@ class Result(ShortRepr):
         """Returns in some lines of text what it is and what was found."""
         return _get_presentation(self).summary(self)
 
-    def table(self, name: str = "") -> Table:
+    def table(self, name: str = "") -> "Table":
         """Returns one of its tables.
 
         Args:

@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, suggest_install
 from modeler.core.formula import escape_latex
+from modeler.core.json import ShortRepr
 from modeler.core.thresholds import THRESHOLDS
 
 

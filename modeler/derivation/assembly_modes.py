@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError, LoopError, RobotError
+from modeler.core.json import ShortRepr
 from modeler.core.result import Result
 from modeler.derivation.closure import check_mobility, describe_open_loop, find_nearest_closed
 from modeler.derivation.geometry import build_exact_geometry
@@ -20,7 +20,7 @@ from modeler.derivation.graph import Graph
 from modeler.derivation.model import SymbolicModel, build_standard_columns
 from modeler.derivation.thresholds import THRESHOLDS
 from modeler.derivation.walks import Linkage, build_linkage
-from modeler.robot import Robot, parse_robot_text, replace_home
+from modeler.robot import Robot, parse_robot_text
 
 # Closed postures from many starts: Levenberg and Marquardt's method, all starts at once.
 #
@@ -481,6 +481,8 @@ class ClosedHome:
         """Returns the robot whose file's text states the home too, for model files."""
         if not self.message:
             return robot
+        from modeler.robot import replace_home  # most states are written to none
+
         try:
             text = replace_home(robot.text, robot.home, self.robot.home)
         except RobotError:  # it is found again, the same

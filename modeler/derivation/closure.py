@@ -15,9 +15,9 @@ from functools import cached_property
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import LoopError
 from modeler.core.expression import get_precise_context
+from modeler.core.json import ShortRepr
 from modeler.derivation import kinematics
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.graph import Expr, Graph, differentiate

@@ -9,9 +9,9 @@ from math import comb, prod
 
 import sympy
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError
 from modeler.core.expression import Expression
+from modeler.core.json import ShortRepr
 from modeler.derivation.thresholds import THRESHOLDS
 from modeler.robot import Joint, LinkFrame, Robot, locate_written_cell
 

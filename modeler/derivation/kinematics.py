@@ -11,9 +11,9 @@ from typing import Any, Protocol
 
 import sympy
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError
 from modeler.core.expression import FUNCTIONS
+from modeler.core.json import ShortRepr
 from modeler.derivation.geometry import Geometry, GeometryRow, cos_sin, count_quarter_turns
 from modeler.derivation.graph import (
     Expr,

@@ -8,9 +8,9 @@ from fractions import Fraction
 from functools import cached_property, partial
 from typing import Any, Self, TypeAlias, TypeGuard
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError
 from modeler.core.expression import FUNCTIONS, LAW, Expression
+from modeler.core.json import ShortRepr
 from modeler.derivation import kinematics
 from modeler.derivation.closure import Closure, derive_closure
 from modeler.derivation.geometry import Geometry

@@ -12,7 +12,6 @@ from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError
 from modeler.core.expression import format_decimal, parse_expression
 from modeler.core.formula import (
@@ -25,6 +24,7 @@ from modeler.core.formula import (
     make_operator,
     make_row,
 )
+from modeler.core.json import ShortRepr
 from modeler.derivation.model import StandardColumn
 
 

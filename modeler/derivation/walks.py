@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.derivation.closure import Frame, LoopEquations, derive_loop_equations, wrap_to_pi
 from modeler.derivation.geometry import Geometry
 from modeler.derivation.kinematics import compute_base_poses

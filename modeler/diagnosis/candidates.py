@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.sparse import csr_array
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.core.manifest import ModuleSpec, ParameterSpec
 from modeler.diagnosis.signals import EVERY, SignalReference, Signals, compute_tilt_columns
 from modeler.diagnosis.thresholds import THRESHOLDS

@@ -14,7 +14,6 @@ from modeler.diagnosis.events import compute_burst_ratio, find_contact_window, f
 from modeler.diagnosis.generation import estimate_logger_shift, generate_candidates
 from modeler.diagnosis.messages import exclude_friction, find_faults
 from modeler.diagnosis.plausibility import find_gravity_confounders
-from modeler.diagnosis.proposals import discover_equations
 from modeler.diagnosis.result import Diagnosis, ParameterChange, PushWindow
 from modeler.diagnosis.scoring import make_veto
 from modeler.diagnosis.search import Search, SearchStep, search_effects
@@ -166,6 +165,8 @@ def diagnose(
         changes = findings.find_changed_parameters(model, first, other, left, holdout)
     diagnosis = findings.assemble_diagnosis(model, bands, window, faults, changes)
     if equations and limit:
+        from modeler.diagnosis.proposals import discover_equations  # few runs search equations
+
         stages.begin_stage(1.0)
         facts = [(f.effect, f.joint) for f in diagnosis.effects if f.status == "confirmed"]
         band = bands[0]

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from scipy.optimize import least_squares
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.diagnosis import scoring
 from modeler.diagnosis.candidates import Candidate, to_dense
 from modeler.diagnosis.expressions import Formula, Term, list_factors

@@ -14,7 +14,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.core.manifest import ModuleSpec
 from modeler.core.toml_cells import TomlCell
 from modeler.diagnosis.candidates import Candidate, JointScale

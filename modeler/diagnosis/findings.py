@@ -7,7 +7,7 @@ from functools import cache, partial
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.diagnosis import messages, result
 from modeler.diagnosis.candidates import Candidate, to_dense
 from modeler.diagnosis.events import detect_events

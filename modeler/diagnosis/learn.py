@@ -19,9 +19,9 @@ import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 from scipy.sparse import csr_array, eye_array, kron, vstack
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, RobotError
 from modeler.core.expression import Law
+from modeler.core.json import ShortRepr
 from modeler.core.toml_cells import TomlCell
 from modeler.diagnosis.candidates import Candidate, evaluate_equations
 from modeler.diagnosis.generation import compute_joint_order_spectrum, smooth_rows

@@ -12,7 +12,7 @@ from weakref import WeakSet
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.diagnosis.candidates import Columns, count_columns
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import ReducedRows, compute_joint_whitening, compute_whitening

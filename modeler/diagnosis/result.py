@@ -8,8 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
-from modeler.core.json import Document
+from modeler.core.json import Document, ShortRepr
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Result
 from modeler.core.table import format_error_pair, format_percent

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.core.table import format_error_pair
 from modeler.diagnosis.candidates import Candidate, Columns
 from modeler.diagnosis.generation import is_confirmed

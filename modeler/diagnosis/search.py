@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import minimize, minimize_scalar
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis import plausibility
 from modeler.diagnosis.candidates import Candidate, encode_parameter

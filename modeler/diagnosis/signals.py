@@ -9,7 +9,7 @@ import numpy as np
 from scipy.linalg import expm
 
 from modeler import regression
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import InternalState
 from modeler.numerics.filters import apply_biquad

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from modeler import regression
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis import ranking
 from modeler.diagnosis.candidates import (

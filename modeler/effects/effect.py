@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
-from modeler.core.brief import ShortRepr
 from modeler.core.expression import Expression
+from modeler.core.json import ShortRepr
 
 
 class EnergyBlock(enum.Enum):

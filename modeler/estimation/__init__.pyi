@@ -16,6 +16,9 @@ from .drive_gains import (
 from .energy_fit import identify_energy as identify_energy
 from .identify import (
     Equations as Equations,
+    MethodComparison as MethodComparison,
+    MethodResult as MethodResult,
+    compare_methods as compare_methods,
     compute_relative_errors as compute_relative_errors,
     find_disconnected_joints as find_disconnected_joints,
     find_methods as find_methods,
@@ -73,11 +76,6 @@ from .prior import (
 from .result import (
     FitResult as FitResult,
     compute_friction_by_direction as compute_friction_by_direction,
-)
-from .side_by_side import (
-    MethodComparison as MethodComparison,
-    MethodResult as MethodResult,
-    compare_methods as compare_methods,
 )
 from .single_joint import JointDirections as JointDirections
 from .thresholds import THRESHOLDS as THRESHOLDS

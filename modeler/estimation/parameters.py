@@ -8,10 +8,9 @@ from typing import Any, TypeVar
 import numpy as np
 from scipy.special import fdtri
 
-from modeler.core.brief import ShortRepr
 from modeler.core.choices import Method
 from modeler.core.errors import DataError
-from modeler.core.json import Document, build_instance, select_attributes
+from modeler.core.json import Document, ShortRepr, build_instance, select_attributes
 from modeler.core.table import format_error_pair
 from modeler.estimation.least_squares import Estimate, solve_by_qr, solve_least_squares
 from modeler.estimation.thresholds import THRESHOLDS

@@ -28,8 +28,7 @@ from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec, ParameterSpec
 from modeler.estimation.least_squares import Estimate, Problem, solve_least_squares
 from modeler.estimation.thresholds import THRESHOLDS
-from modeler.numerics.cones import minimize_over_cones
-from modeler.numerics.least_squares import Rank, compute_column_norms
+from modeler.numerics.least_squares import Rank, compute_column_norms, minimize_over_cones
 
 PREFIXES = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
 """The ten standard parameters of a body, in this order."""

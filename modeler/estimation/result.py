@@ -6,9 +6,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, ManifestError
-from modeler.core.json import Document, build_instance
+from modeler.core.json import Document, ShortRepr, build_instance
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Result
 from modeler.core.table import POOLED, format_errors_by_unit, format_percent, pool_errors_by_unit

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, LoopError
-from modeler.core.json import Document
+from modeler.core.json import Document, ShortRepr
 from modeler.excitation.thresholds import THRESHOLDS
 
 if TYPE_CHECKING:

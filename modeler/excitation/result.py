@@ -10,9 +10,8 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
-from modeler.core.json import Change, Document
+from modeler.core.json import Change, Document, ShortRepr
 from modeler.core.result import Result
 from modeler.core.table import align_columns
 from modeler.core.toml_cells import join_names

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import BSpline, PPoly
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.excitation.thresholds import THRESHOLDS
 from modeler.regression import compute_signals_along
 from modeler.runtime import CompiledModel

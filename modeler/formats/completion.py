@@ -26,7 +26,7 @@ import numpy as np
 
 from modeler.estimation import PhysicalParameters, compute_pseudo_inertia
 from modeler.formats.thresholds import THRESHOLDS
-from modeler.numerics.cones import minimize_over_cones
+from modeler.numerics.least_squares import minimize_over_cones
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,18 +4,15 @@ import dataclasses
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from modeler.core.choices import OTHER_PROGRAMS, list_builtin_robots
 from modeler.core.errors import RobotError
 from modeler.core.files import read_file, write_without_overwriting
-from modeler.robot import (
-    ConvertedRobot,
-    Robot,
-    parse_robot_text,
-    read_file_text,
-    read_robot as read_toml_robot,
-)
+from modeler.robot import Robot, parse_robot_text, read_file_text, read_robot as read_toml_robot
+
+if TYPE_CHECKING:
+    from modeler.robot import ConvertedRobot
 
 # Atomic: comments are not tried in all ways of taking them together.
 _FIRST = re.compile(
@@ -41,7 +38,7 @@ def read_robot(robot: str | Path) -> Robot:
 
 def convert_robot_file(
     path: str | Path, exact_decimals: bool = False, **part: Any
-) -> ConvertedRobot:
+) -> "ConvertedRobot":
     """Returns another program's robot file as the text of ours.
 
     What begins with `<robot>` is a URDF, with `<mujoco>` an MJCF, whatever the file is called.
@@ -79,7 +76,7 @@ def is_robot_xml(data: bytes) -> bool:
 
 def _convert_xml(
     path: Path, data: bytes, exact_decimals: bool, part: Mapping[str, Any]
-) -> ConvertedRobot:
+) -> "ConvertedRobot":
     from modeler.formats.tree_cuts import cut_tree
     from modeler.formats.tree_text import convert_tree
     from modeler.formats.urdf import read_urdf_tree
@@ -97,7 +94,7 @@ def _convert_xml(
     return convert_tree(cut_tree(tree, **part), str(path))
 
 
-def build_converted_robot(converted: ConvertedRobot, path: str | Path) -> Robot:
+def build_converted_robot(converted: "ConvertedRobot", path: str | Path) -> Robot:
     """Returns the robot of another program's file; its readings say what was decided."""
     read = parse_robot_text(converted.text, f"{path}, as a robot file")
     return dataclasses.replace(read, readings=(*converted.notes, *read.readings))

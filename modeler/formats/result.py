@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
-from modeler.core.json import Document
+from modeler.core.json import Document, ShortRepr
 from modeler.core.result import Presentation, Result, register_presentations
 from modeler.core.table import Table, format_percent
 from modeler.formats.bodies import (

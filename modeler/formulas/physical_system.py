@@ -14,8 +14,8 @@ from sympy.polys.domains import QQ
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyRing
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DerivationError, RobotError
+from modeler.core.json import ShortRepr
 from modeler.derivation import (
     BaseParameters,
     SymbolicModel,

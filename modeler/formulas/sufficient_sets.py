@@ -15,8 +15,8 @@ from math import comb, prod
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import ModelerError
+from modeler.core.json import ShortRepr
 from modeler.derivation import compute_kernel
 from modeler.formulas.physical_system import NumericPolynomial, PhysicalSystem
 from modeler.formulas.thresholds import THRESHOLDS

@@ -5,7 +5,7 @@ from .blocks import (
     open_blocks as open_blocks,
     read_windows as read_windows,
 )
-from .columns import Columns as Columns
+from .columns import Columns as Columns, describe_coarse_clock as describe_coarse_clock
 from .guess import EITHER as EITHER, split_label as split_label
 from .inspect import (
     Clock as Clock,
@@ -38,4 +38,3 @@ from .readers import (
     build_frame_columns as build_frame_columns,
     split_joints as split_joints,
 )
-from .times import describe_coarse_clock as describe_coarse_clock

@@ -23,12 +23,12 @@ from modeler.logs.columns import (
     ColumnRequest,
     Columns,
     NotNumericError,
+    join_stamps,
     make_package_error,
     wrap_read_errors,
 )
 from modeler.logs.guess import guess_role
 from modeler.logs.thresholds import THRESHOLDS
-from modeler.logs.times import join_stamps
 
 LEAST_ROWS = 10
 """A log of fewer rows carries no motion: fifth of a second at the slowest usual rate."""

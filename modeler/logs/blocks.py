@@ -28,14 +28,6 @@ from modeler.logs.columns import (
     ColumnValues,
     NotNumericError,
     Stream,
-    make_package_error,
-    make_read_error,
-    wrap_read_errors,
-)
-from modeler.logs.datasets import Dataset, find_dataset
-from modeler.logs.dialect import TEXTS, detect_dialect, detect_head, parse_decimal, strip_quotes
-from modeler.logs.thresholds import THRESHOLDS
-from modeler.logs.times import (
     convert_times,
     find_origins,
     find_stamp_pairs,
@@ -44,8 +36,14 @@ from modeler.logs.times import (
     is_clock,
     is_moment,
     join_stamps,
+    make_package_error,
+    make_read_error,
     parse_moment,
+    wrap_read_errors,
 )
+from modeler.logs.datasets import Dataset, find_dataset
+from modeler.logs.dialect import TEXTS, detect_dialect, detect_head, parse_decimal, strip_quotes
+from modeler.logs.thresholds import THRESHOLDS
 
 pc: Any = lazy_loader.load("pyarrow.compute", suppress_warning=True)  # it takes long
 

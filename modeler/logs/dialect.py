@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import BinaryIO
 
 from modeler.core.errors import DataError
+from modeler.logs.columns import find_first_seconds, is_beyond, is_clock, parse_moment
 from modeler.logs.mapping import find_unit
 from modeler.logs.thresholds import THRESHOLDS
-from modeler.logs.times import find_first_seconds, is_beyond, is_clock, parse_moment
 
 TEXTS = (".csv", ".txt", ".dat", ".tsv", ".log", ".asc", ".lvm")
 """How the names of text files end."""

@@ -11,7 +11,7 @@ from modeler.core.json import Document
 from modeler.core.manifest import JointSpec
 from modeler.core.result import Result
 from modeler.core.table import format_percent
-from modeler.logs.columns import Stream
+from modeler.logs.columns import Stream, describe_coarse_clock
 from modeler.logs.guess import (
     Guess,
     describe_doubtful_degrees,
@@ -27,7 +27,6 @@ from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LENGTH, LogMap, find_unit, parse_unit
 from modeler.logs.rates import check_rates, describe_repeats, is_moving, is_on_grid
 from modeler.logs.thresholds import THRESHOLDS
-from modeler.logs.times import describe_coarse_clock
 from modeler.numerics.noise import estimate_hold_length, estimate_lattice_step, find_repeated_rows
 
 GAP = 1.5  # of a usual step

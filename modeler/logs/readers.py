@@ -22,12 +22,18 @@ from modeler.logs.arrays import (
     read_numpy,
 )
 from modeler.logs.bags import read_bag
-from modeler.logs.columns import Column, ColumnRequest, Columns, NotNumericError
+from modeler.logs.columns import (
+    Column,
+    ColumnRequest,
+    Columns,
+    NotNumericError,
+    find_origins,
+    is_moment,
+)
 from modeler.logs.datasets import INFO, flatten_table
 from modeler.logs.dialect import TEXTS
 from modeler.logs.guess import guess_role, split_label
 from modeler.logs.thresholds import THRESHOLDS
-from modeler.logs.times import find_origins, is_moment
 
 Reader = Callable[[Path, ColumnRequest], Columns]
 

@@ -8,7 +8,7 @@ from scipy.linalg.lapack import dtbtrs
 from scipy.ndimage import gaussian_filter1d
 from scipy.sparse import csr_array
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.numerics.thresholds import THRESHOLDS
 
 SPREAD = 0.1325

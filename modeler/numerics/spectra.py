@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
-from modeler.core.json import Document
+from modeler.core.json import Document, ShortRepr
 from modeler.numerics.thresholds import THRESHOLDS
 
 

@@ -9,9 +9,9 @@ from typing import Any, get_args
 import numpy as np
 from scipy.ndimage import maximum_filter1d
 
-from modeler.core.brief import ShortRepr
 from modeler.core.choices import LOW_SPEED, Derivatives
 from modeler.core.errors import DataError
+from modeler.core.json import ShortRepr
 from modeler.numerics.filters import apply_zero_phase_lowpass
 from modeler.regression.log import RawSegment, select_long_runs
 from modeler.regression.thresholds import THRESHOLDS

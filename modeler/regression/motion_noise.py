@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.core.manifest import JointSpec
 from modeler.core.table import format_percent
 from modeler.numerics.spectra import (

@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, LoopError
-from modeler.core.json import select_attributes
+from modeler.core.json import ShortRepr, select_attributes
 from modeler.numerics.filters import BANDWIDTH, SPREAD
 from modeler.numerics.least_squares import solve_scaled_least_squares
 from modeler.regression import prepare

@@ -7,8 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, LoopError
+from modeler.core.json import ShortRepr
 from modeler.core.manifest import JointSpec, ModuleSpec
 from modeler.logs import Positions, is_derivative
 from modeler.numerics.least_squares import compute_weighted_median

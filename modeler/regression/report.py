@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.core.manifest import JointSpec, ModuleSpec
 from modeler.core.result import Result
 from modeler.core.table import format_percent

@@ -9,8 +9,8 @@ from functools import partial
 import numpy as np
 from scipy.sparse import csr_array
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, LoopError
+from modeler.core.json import ShortRepr
 from modeler.numerics import filters
 from modeler.regression.motion import ChosenProcessing, Segment, dilate_flags
 from modeler.regression.motion_noise import MotionNoise

@@ -9,8 +9,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import RobotError
+from modeler.core.json import ShortRepr
 from modeler.core.toml_cells import TomlCell, format_toml, format_toml_key, join_names, suggest_name
 from modeler.effects import (
     CATALOGUE,

@@ -41,7 +41,6 @@ from modeler.robot.mechanism import (
     read_shared,
 )
 from modeler.robot.robot import Robot
-from modeler.robot.robot_text import align_cells
 from modeler.robot.sections import (
     Joints,
     read_capsules,
@@ -482,6 +481,8 @@ def _build_serial_values(kinds: str, convention: str) -> dict[str, str]:
     cells += [
         [row[c] if c != "j" and row[c] in "01" else f'"{row[c]}"' for c in columns] for row in rows
     ]
+    from modeler.robot.robot_text import align_cells  # reading writes none
+
     head, *lines = align_cells(cells)
     stated = f'convention = "{convention}"\n' if convention != "khalil" else ""
     body = "".join(f"          [{line}],\n" for line in lines)

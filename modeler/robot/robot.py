@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from modeler.core.brief import ShortRepr
 from modeler.core.expression import Expression
+from modeler.core.json import ShortRepr
 from modeler.core.manifest import DriveSpec
 from modeler.core.result import Result
 from modeler.core.toml_cells import (

@@ -12,12 +12,21 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
-from modeler.core.checks import check_mask, check_sample_counts, check_samples, reject_signals
 from modeler.core.errors import ManifestError, ShapeError
+from modeler.core.json import ShortRepr
 from modeler.core.manifest import FunctionSpec, ModuleSpec
 from modeler.runtime import bind
-from modeler.runtime.bind import EntryFunctions, FusedLibrary, Library, SampleArrays, TileLibrary
+from modeler.runtime.bind import (
+    EntryFunctions,
+    FusedLibrary,
+    Library,
+    SampleArrays,
+    TileLibrary,
+    check_mask,
+    check_sample_counts,
+    check_samples,
+    reject_signals,
+)
 from modeler.runtime.build import map_parts, split_samples
 
 BLOCK = 16384

@@ -6,12 +6,11 @@ from typing import Any, Literal
 
 import numpy as np
 
-from modeler.core.checks import check_vector
 from modeler.core.errors import LoopError, ManifestError, ShapeError, SolutionError
 from modeler.core.files import read_file
 from modeler.core.manifest import MANIFEST, EmittedModule, FunctionSpec, ModuleSpec, parse_manifest
 from modeler.core.result import Result
-from modeler.runtime.bind import Library, check_names
+from modeler.runtime.bind import Library, check_names, check_vector
 from modeler.runtime.build import build_library
 from modeler.runtime.fused import BatchEvaluator, check_output
 

@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
 from modeler.core.choices import MOST_SAMPLES, MOTIONS
 from modeler.core.errors import DataError
 from modeler.core.files import write_atomically
-from modeler.core.json import convert_to_plain
+from modeler.core.json import ShortRepr, convert_to_plain
 from modeler.core.result import Result
 from modeler.robot import Limits, Robot
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from modeler.core.errors import RobotError
-from modeler.numerics.cones import minimize_over_cones
+from modeler.numerics.least_squares import minimize_over_cones
 from modeler.robot import INERTIAL, Limits, Robot
 from modeler.simulation.physics import PHYSICS, EffectPhysics, ShaftScale
 from modeler.simulation.portable_math import round_to_ten_digits

@@ -11,9 +11,8 @@ from typing import Any
 import numpy as np
 
 from modeler import regression
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
-from modeler.core.json import Document
+from modeler.core.json import Document, ShortRepr
 from modeler.core.result import Result
 from modeler.core.table import (
     POOLED,

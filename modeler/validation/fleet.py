@@ -5,9 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
-from modeler.core.json import Document
+from modeler.core.json import Document, ShortRepr
 from modeler.core.manifest import ModuleSpec
 from modeler.core.result import Result
 from modeler.core.table import Column, align_columns, format_percent, format_rows

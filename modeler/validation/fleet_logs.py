@@ -11,10 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, LoopError
 from modeler.core.files import read_text
-from modeler.core.json import parse_toml
+from modeler.core.json import ShortRepr, parse_toml
 from modeler.core.manifest import EmittedModule, ModuleSpec
 from modeler.estimation import (
     estimate_correlation,

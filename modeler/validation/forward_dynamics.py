@@ -12,9 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import expm
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
-from modeler.core.json import Document
+from modeler.core.json import Document, ShortRepr
 from modeler.core.table import format_percent
 from modeler.estimation import scale_inertia
 from modeler.regression import find_shafts

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from modeler.core import figure as fig
-from modeler.core.brief import ShortRepr
-from modeler.core.json import Document
+from modeler.core.json import Document, ShortRepr
 from modeler.core.result import Result
 from modeler.core.table import DIGITS, format_percent
 from modeler.validation.forward_dynamics import Stability

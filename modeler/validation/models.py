@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import stdtr
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError
-from modeler.core.json import Document
+from modeler.core.json import Document, ShortRepr
 from modeler.core.result import Result
 from modeler.core.table import align_columns, format_percent
 from modeler.estimation import IdentifiedModel

@@ -9,8 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from modeler import regression
-from modeler.core.brief import ShortRepr
-from modeler.core.json import select_attributes
+from modeler.core.json import ShortRepr, select_attributes
 from modeler.core.table import pool_errors_by_unit
 from modeler.estimation import IdentifiedModel
 from modeler.numerics.filters import LEAST_WEIGHT, compute_moving_means

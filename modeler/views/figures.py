@@ -16,7 +16,6 @@ from modeler.core.files import write_atomically
 from modeler.core.result import Figures
 from modeler.estimation import FitResult
 from modeler.robot import Robot
-from modeler.views.robot_page import show
 from modeler.views.thresholds import THRESHOLDS
 
 if TYPE_CHECKING:
@@ -44,6 +43,7 @@ def draw_robot(robot: Robot) -> "Drawing":
     """Draws the robot at its [home], as wide as a column of a paper."""
     from modeler.views.figure_matplotlib import Drawing
     from modeler.views.robot_drawing import draw_skeleton as skeleton_figure
+    from modeler.views.robot_page import show
 
     shown_robot = show(robot)
     return skeleton_figure(shown_robot.skeleton, shown_robot.posture, Drawing)

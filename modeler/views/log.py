@@ -21,7 +21,7 @@ from modeler.regression import (
 from modeler.simulation import SimulatedLog, write_log
 from modeler.views import page
 from modeler.views.figures import build_curves, draw_log, draw_picture
-from modeler.views.noise import build_noise_blocks, draw_noise_picture
+from modeler.views.fit import build_noise_blocks, draw_noise_picture
 from modeler.views.thresholds import THRESHOLDS
 
 _HEAD = ("channel", "unit", "least", "greatest", "resolution", "missing", "remarks")

@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
 from modeler.core.errors import DataError, DerivationError, LoopError
 from modeler.core.files import write_atomically
-from modeler.core.json import select_attributes
+from modeler.core.json import ShortRepr, select_attributes
 from modeler.core.table import align_columns
 from modeler.excitation import BASE as STILL, ClosestApproach, CollisionGeometry, MotionBounds
 from modeler.robot import JointKind, Robot, build_written_table, get_written_letter

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.brief import ShortRepr
+from modeler.core.json import ShortRepr
 from modeler.robot import Joint, JointKind, Loop, Robot, extract_linear_form
 from modeler.views.thresholds import THRESHOLDS
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeler import api
-from modeler.estimation.side_by_side import MethodResult, compare_methods
+from modeler.estimation.identify import MethodResult, compare_methods
 from tests.chain import chain_of
 from tests.measured_sets.sets import SETS
 

@@ -8,11 +8,10 @@ import pytest
 from modeler.api import inspect_log
 from modeler.core.errors import DataError
 from modeler.logs.blocks import open_blocks
-from modeler.logs.columns import ColumnRequest
+from modeler.logs.columns import ColumnRequest, describe_coarse_clock, find_stamp_pairs
 from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import parse_map_options
 from modeler.logs.readers import read_columns
-from modeler.logs.times import describe_coarse_clock, find_stamp_pairs
 from modeler.regression.read import open_source
 from tests.logs.writers import START, joined, stamps
 from tests.texts import read_rows
