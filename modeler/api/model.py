@@ -8,14 +8,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from statistics import NormalDist
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from modeler import diagnosis, estimation, validation, views
-from modeler.api import checks, improve
+from modeler.api import checks
 from modeler.api.checks import predict_torque
-from modeler.api.exporting import export
 from modeler.api.log_maps import Mapped
 from modeler.api.workflow import AnyLog, Logs, compile, convert_to_list, generate, observe
 from modeler.core.errors import DataError
@@ -23,9 +22,12 @@ from modeler.core.files import read_file
 from modeler.core.manifest import EmittedModule
 from modeler.core.table import label_values
 from modeler.estimation import IdentifiedModel, ParameterEstimate, model_file
-from modeler.formats import Exported, read_robot
+from modeler.formats import read_robot
 from modeler.regression import Log, Observation
 from modeler.robot import Robot, suggest_name
+
+if TYPE_CHECKING:
+    from modeler.formats import Exported
 
 _SURE = NormalDist().inv_cdf(0.975)  # of a 95 % interval
 
@@ -323,6 +325,8 @@ class Model(IdentifiedModel):
         """
         held_out_logs = self.held_out if held_out is None else convert_to_list(held_out)
         fit_logs = self.find_logs(logs, "missing")
+        from modeler.api import improve  # a fit has no use for it
+
         return improve.diagnose(
             self, fit_logs, held_out_logs, mapping=mapping, without=tuple(without)
         )
@@ -350,6 +354,8 @@ class Model(IdentifiedModel):
         held_out_logs = self.held_out if held_out is None else tuple(convert_to_list(held_out))
         fit_logs = self.find_logs(logs, "add")
         place = None if joint is None else str(joint)
+        from modeler.api import improve  # a fit has no use for it
+
         better = improve.add(self, effect, fit_logs, held_out_logs, mapping=mapping, joint=place)
         memory_logs = tuple(log for log in fit_logs if isinstance(log, Log))
         return dataclasses.replace(
@@ -431,6 +437,8 @@ class Model(IdentifiedModel):
         >>> model.export("two-link.urdf").format
         'urdf'
         """
+        from modeler.api.exporting import export  # a fit has no use for it
+
         return export(self, out, to, like, force)
 
     def __getstate__(self) -> dict[str, Any]:

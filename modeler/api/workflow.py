@@ -6,7 +6,7 @@ from contextlib import AbstractContextManager
 from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from modeler import regression
 from modeler.api.log_maps import Mapped, build_log_maps, parse_time_range, read_mapped_log
@@ -19,18 +19,15 @@ from modeler.core.manifest import EmittedModule, ModuleSpec
 from modeler.core.options import CONTROLLED, GenerateOptions, OptionError
 from modeler.core.table import Table
 from modeler.effects import CATALOGUE
-from modeler.estimation import (
-    OF_TRIANGLES,
-    IdentifiedModel,
-    check_currents,
-    model_file,
-    set_unit_gains,
-)
+from modeler.estimation import OF_TRIANGLES, IdentifiedModel, model_file
 from modeler.formats import convert as convert, read_robot
 from modeler.logs import Frame, LogMap, open_blocks
 from modeler.robot import Robot, insert_own_effect, new_robot as new_robot, parse_robot_text
-from modeler.runtime import CompiledModel, GpuModel, load_gpu, load_module as load_compiled
+from modeler.runtime import CompiledModel, load_module as load_compiled
 from modeler.simulation import SimulatedLog, write_log
+
+if TYPE_CHECKING:
+    from modeler.runtime import GpuModel
 
 AnyLog = str | Path | regression.Log | SimulatedLog | Mapping[str, Any] | Frame
 """A log: its file, a piece of it (`run.parquet@0:10`), one that was read, one just simulated.
@@ -188,6 +185,8 @@ def read_currents(
     Raises:
         DataError: a log gives a torque instead.
     """
+    from modeler.estimation import check_currents, set_unit_gains  # of drive gains alone
+
     spec, log_list = set_unit_gains(compiled.spec), convert_to_list(logs)
     every = enumerate(zip(log_list, build_log_maps(compiled, log_list, mapping), strict=True))
     read = [_read_log(*each, spec) for each in every]
@@ -420,7 +419,7 @@ def estimators() -> Table:
     return Table.build("estimators", names, rows)
 
 
-def load_on_gpu(derivation: Derivation) -> GpuModel:
+def load_on_gpu(derivation: Derivation) -> "GpuModel":
     """Loads the base regressor of a robot without loops on the graphics processor.
 
     It needs CuPy: `pip install "modeler-robotics[gpu]"`.
@@ -429,4 +428,6 @@ def load_on_gpu(derivation: Derivation) -> GpuModel:
         BuildError: no CuPy, no graphics processor, or the compiler refused.
         EmitError: the robot has loops.
     """
+    from modeler.runtime import load_gpu  # few have one
+
     return load_gpu(generate(derivation, cuda=True))
