@@ -479,5 +479,5 @@ def _build_law(state: State, j: int, splines: _SplineBasis, fit: _SplineFit) -> 
     fall = float(fit.reductions.sum())
     reduction = min(1.0, fall / max(before, 1e-300))
     share = float(np.sqrt(max(0.0, fall) / (torque_square + 1e-300)))
-    numbers = size, torque, fit.reductions, fit.t_ratio, reduction, share
-    return LearnedLaw(splines.coordinates, law, *numbers)
+    place = splines.coordinates
+    return LearnedLaw(place, law, size, torque, fit.reductions, fit.t_ratio, reduction, share)

@@ -413,8 +413,8 @@ def rank_candidates(base: GramBlocks, pool: CandidateBatch) -> Ranking:
     t_ratios = every.fitted[0] / np.sqrt(np.maximum(score, 1e-300))
     sizes = every.gamma[0] / pool.scale, every.deviation[0] / pool.scale
     value, deviation = (np.split(x, pool.first[1:]) for x in sizes)
-    numbers = before, t_ratios, value, deviation, every.visible[0]
-    return Ranking(compute_reductions(base, pool), *numbers)
+    reductions = compute_reductions(base, pool)
+    return Ranking(reductions, before, t_ratios, value, deviation, every.visible[0])
 
 
 def compute_reductions(base: GramBlocks, pool: CandidateBatch) -> np.ndarray:

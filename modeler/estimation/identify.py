@@ -423,8 +423,8 @@ def build_joint_fits(
     fits = []
     for j, joint in enumerate(observation.joints):
         error = float(residual[j] / torque[j]) if torque[j] > 0.0 else None
-        numbers = error, float(residual[j] / np.sqrt(count[j])), float(sigma[j])
-        fits.append(JointFit(joint.name, joint.effort_unit, int(data.rows[j]), *numbers))
+        rms, rows = float(residual[j] / np.sqrt(count[j])), int(data.rows[j])
+        fits.append(JointFit(joint.name, joint.effort_unit, rows, error, rms, float(sigma[j])))
     return tuple(fits)
 
 

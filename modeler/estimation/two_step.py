@@ -356,8 +356,8 @@ def compute_excitations(
         logged = np.array([c.pose for c in steps.configurations if c.joint == i]) @ directions.rows
         rows = (build_inertia_rows(model, q, directions.rows[i]) for q in (logged, poses))
         values, every = map(_compute_singular_values, rows)
-        numbers = len(logged), values, len(every), every[-1] / every[0]
-        results.append(PersistentExcitation(directions.names[i], *numbers))
+        name, ratio = directions.names[i], every[-1] / every[0]
+        results.append(PersistentExcitation(name, len(logged), values, len(every), ratio))
     return tuple(results)
 
 

@@ -1,7 +1,7 @@
 """Effects beyond rigid links as physics: torques on shafts, inertias of shafts, inner states.
 
 To simulate one more effect of robot files, add an `EffectPhysics` to `PHYSICS`; one that the robot
-file lacks is a `HiddenKind` in `hidden.py`. This is deliberately a second statement of each effect,
+file lacks is a `HiddenKind`, below. This is deliberately a second statement of each effect,
 apart from the catalogue from which regressors are made.
 """
 
