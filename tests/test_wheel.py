@@ -221,5 +221,5 @@ print("reported")
 
 @slow_rotating("the wheel used")
 def test_the_story_of_one_object_from_the_wheel(installed: Path, tmp_path: Path) -> None:
-    assert _runner(installed, tmp_path)("python", "-c", _STORY) == "told\n"
+    assert _runner(installed, tmp_path)("python", "-c", _STORY) == "reported\n"
     assert (tmp_path / "out" / "manifest.json").is_file()
