@@ -524,8 +524,8 @@ def _compute_checked_inverse(
     if inverse is None:
         raise place.make_error(
             f"{_format_ratios(ratios)}: singular, some motion of {join_names(joints)} turns no "
-            "motor; "
-            "expected motors whose positions fix those of all joints; correct the coefficients"
+            "motor; expected motors whose positions determine those of all joints; correct the "
+            "coefficients"
         )
     largest = max(abs(c) for row in inverse for c in row)
     if largest > THRESHOLDS.max_joint_ratio:
