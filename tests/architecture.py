@@ -80,7 +80,7 @@ ONLY_IN = {
 # The ratchet: it may only be lowered, or raised by a line that says why.
 MOST_PACKAGES = 21  # readers and writers of other formats in one; fleets are validation
 MOST_MODULES = 318  # small modules stand with their neighbours
-MOST_CODE_LINES = 76354
+MOST_CODE_LINES = 76349
 MOST_CIRCLES = 0
 
 # Packages without a public interface: their modules are collections by subject, each imported by

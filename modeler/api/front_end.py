@@ -22,7 +22,6 @@ from modeler.core.errors import (
 )
 from modeler.core.figure import (
     COLORS as COLORS,
-    SHADE as SHADE,
     Band as Band,
     Bars as Bars,
     Curve as Curve,
@@ -30,7 +29,6 @@ from modeler.core.figure import (
     Panel as Panel,
     Picture as Picture,
     Points as Points,
-    Series as Series,
     Style as Style,
     read_pictures as read_pictures,
 )

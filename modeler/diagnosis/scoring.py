@@ -462,14 +462,12 @@ def _select_simplest(
     timing = best.candidate.effect.is_timing_sensitive
     least = THRESHOLDS.parsimony_share * best.total_reduction
 
-    def is_timed(j: ScoredCandidate) -> bool:
-        return j.candidate.effect.is_timing_sensitive
-
-    near = [j for j in find_equivalents(best, scores) if j.total_reduction > least]
     near = [
         j
-        for j in near
-        if j.is_significant and (timing or not j.candidate.effect.is_timing_sensitive)
+        for j in find_equivalents(best, scores)
+        if j.total_reduction > least
+        and j.is_significant
+        and (timing or not j.candidate.effect.is_timing_sensitive)
     ]
 
     def compute_sort_key(j: ScoredCandidate) -> tuple[bool, bool, float, float]:

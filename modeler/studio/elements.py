@@ -275,10 +275,6 @@ class RobotFrame:
         """Returns the id of the element, for scripts: `toRobot(id, message)`."""
         return self.frame.html_id
 
-    def set_posture(self, q: Mapping[str, float]) -> None:
-        """Moves joints; the loops follow."""
-        self._send_message(modeler="posture", q=dict(q))
-
     def show_clearly(self, rows: Sequence[str]) -> None:
         """Shows links and joints clearly, the others faintly; none: all alike."""
         self._send_message(modeler="light", rows=list(rows))
