@@ -9,7 +9,7 @@ from modeler.estimation.least_squares import Estimate, Rows, solve_by_qr, sum_st
 from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import CompressedRegression, compute_triangle
-from modeler.regression import DataWarning, Observation
+from modeler.regression import THRESHOLDS as REGRESSION, DataWarning, Observation
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,6 +241,7 @@ def compare_halves(
     sigma: np.ndarray,
     lag1: np.ndarray,
     loaded: np.ndarray | None = None,
+    prior: np.ndarray | None = None,
 ) -> HalvesComparison:
     """Estimates by how much values that differ between halves of the motion raise the sigmas.
 
@@ -259,9 +260,11 @@ def compare_halves(
         sigma: (c,) standard deviations so far, autocorrelation included.
         lag1: (n,) autocorrelation of the residual of each joint over one row.
         loaded: (rows,) True where a load is carried; None: nowhere.
+        prior: (r, c + 1) rows that stay, whatever is left out.
     """
     columns, row = np.array(estimate.rank.kept_columns, dtype=int), observation.row_sample
     weighted = _weight_triangles(compressed, estimate)
+    known = [] if prior is None else [prior[:, [*columns, -1]]]
     every = {"speed": np.abs(observation.qd), "position": observation.q}
     every["torque"] = np.abs(observation.torque)
     signals = {name: values[row, observation.row_joint] for name, values in every.items()}
@@ -272,12 +275,12 @@ def compare_halves(
         total = np.bincount(observation.row_joint[counted], values[counted], len(count))
         low = values < (total / np.maximum(count, 1))[observation.row_joint]
         R = [weighted(counted & half) for half in (low, ~low)]
-        beta, var = _solve_blocks([*R[0], *R[1]])
+        beta, var = _solve_blocks([*known, *R[0], *R[1]])
         if beta is None:
             break
         raised = np.maximum((sigma[columns] ** 2) / var, 1.0)
         for j in range(len(observation.joints)):
-            solutions = [_solve_blocks([*np.delete(R[k], j, 0), *R[1 - k]]) for k in (0, 1)]
+            solutions = [_solve_blocks([*known, *np.delete(R[k], j, 0), *R[1 - k]]) for k in (0, 1)]
             if any(b is None for b, _ in solutions) or not all(half[j].any() for half in R):
                 continue
             d = np.array([b - beta for b, _ in solutions])
@@ -294,7 +297,7 @@ def compare_halves(
             if z.max() > farthest:
                 farthest, in_rows = float(z.max()), (R[0][j] != 0.0).any(axis=0)[:-1]
                 worst = int(columns[np.where(in_rows, z, 0.0).argmax()]), j, name, farthest
-    bias = estimate_reversal_bias(observation, compressed, counted, estimate, sigma)
+    bias = estimate_reversal_bias(observation, compressed, counted, estimate, sigma, known)
     added = np.maximum(added, bias)
     square = np.where(sigma > 0.0, sigma, 1.0) ** 2
     return HalvesComparison(np.sqrt(1.0 + added / square), worst)
@@ -306,6 +309,7 @@ def estimate_reversal_bias(
     counted: np.ndarray,
     estimate: Estimate,
     sigma: np.ndarray,
+    known: Sequence[np.ndarray] = (),
 ) -> np.ndarray:
     """Returns (c,) variances from rows near reversals: noise of the speed biases friction there.
 
@@ -318,6 +322,7 @@ def estimate_reversal_bias(
         counted: (rows,) that were fitted.
         estimate: its joint weights and kept columns are taken.
         sigma: (c,) standard deviations so far.
+        known: rows of a prior, of the kept columns.
     """
     added = np.zeros(len(sigma))
     if observation.steady is None:
@@ -325,7 +330,9 @@ def estimate_reversal_bias(
     columns = np.array(estimate.rank.kept_columns, dtype=int)
     weighted = _weight_triangles(compressed, estimate)
     steady = counted & observation.steady[observation.used]
-    (whole, var), (far, far_var) = (_solve_blocks([*weighted(x)]) for x in (counted, steady))
+    (whole, var), (far, far_var) = (
+        _solve_blocks([*known, *weighted(x)]) for x in (counted, steady)
+    )
     if whole is None or far is None:
         return added
     raised = np.maximum(sigma[columns] ** 2 / var, 1.0)
@@ -352,3 +359,23 @@ def _solve_blocks(blocks: list[np.ndarray]) -> tuple[np.ndarray | None, np.ndarr
         return None, lengths
     beta, root = solve_by_qr(W, whole[:, -1])
     return beta, np.sum(root**2, axis=1)
+
+
+def compare_bands(observation: Observation, estimate: Estimate) -> list[str]:
+    """Returns a sentence where wider filters give other values: noise of the motion biases them."""
+    values = np.array(observation.report.bands.widest_values)
+    if not values.size:
+        return []
+    sigma = np.sqrt(np.diag(estimate.covariance))[: len(values)]
+    d = np.abs(values - estimate.beta[: len(values)])
+    apart = np.divide(d, sigma, out=np.zeros(len(d)), where=sigma > 0.0)
+    worst = int(apart.argmax())
+    # of long logs, only a part was looked at
+    rows = sum(log.rows for log in observation.report.logs)
+    share = min(1.0, REGRESSION.search_samples / rows)
+    if apart[worst] < THRESHOLDS.band_sigmas / share**0.5:
+        return []
+    return [
+        f"the widest cut-offs and the chosen ones differ by {apart[worst]:.2g} sigma "
+        f"({observation.names[worst]}): noise of the motion biases the values of the wider ones"
+    ]

@@ -14,7 +14,12 @@ from modeler.core.errors import DataError, ModelerError
 from modeler.core.json import Document, ShortRepr, select_attributes
 from modeler.core.result import Result
 from modeler.estimation import instrumental, least_squares, parameters
-from modeler.estimation.covariance import HalvesComparison, compare_halves, estimate_hac_covariance
+from modeler.estimation.covariance import (
+    HalvesComparison,
+    compare_bands,
+    compare_halves,
+    estimate_hac_covariance,
+)
 from modeler.estimation.physical_consistency import estimate_consistent
 from modeler.estimation.prior import Prior, build_prior, describe_unused_prior
 from modeler.estimation.result import FitResult, JointFit
@@ -24,7 +29,7 @@ from modeler.numerics.least_squares import (
     compress_rows,
     solve_scaled_least_squares,
 )
-from modeler.regression import THRESHOLDS as REGRESSION, Observation, compute_triangles, is_streamed
+from modeler.regression import Observation, compute_prior_weights, compute_triangles, is_streamed
 from modeler.runtime import CompiledModel
 
 _REFUSALS = {
@@ -56,6 +61,11 @@ class Estimator:
     def takes_prior(self) -> bool:
         """Returns False of estimators with their own prior: a robot file's would be a second."""
         return not (self.about.is_consistent or self.about.id == "ridge")
+
+    @property
+    def takes_torque_prior(self) -> bool:
+        """Returns True of estimators that keep small what the motion does not show."""
+        return self.about.id in ("weighted", "robust", "consistent")
 
 
 _ESTIMATES: dict[Method, Callable[[least_squares.Problem], least_squares.Estimate]] = {
@@ -131,6 +141,14 @@ class Equations:
         """Returns W (rows, c + loads): columns of the base parameters, then of the loads."""
         W = self.observation.W
         return np.column_stack([W, self.extra]) if self.extra.shape[1] else W
+
+    @cached_property
+    def torque_prior(self) -> np.ndarray | None:
+        """Returns (c, c + loads + 1) rows of `compute_prior_weights`; None if it knows nothing."""
+        weights = compute_prior_weights(self.observation)
+        rows = np.zeros((len(weights), len(self.names) + 1))
+        rows[:, : len(weights)] = np.diag(weights)
+        return rows if weights.any() else None
 
     @property
     def stored_matrix(self) -> np.ndarray | None:
@@ -228,11 +246,13 @@ def fit_equations(
     estimator, is_part = find_method(method), data is not None
     dead, alive = find_disconnected_joints(observation), find_connected_rows(observation)
     data = data or equations.compress_rows(alive)
+    if estimator.takes_torque_prior:
+        data = dataclasses.replace(data, prior=equations.torque_prior)
     columns, count = len(equations.names), int(data.rows.sum())
-    if count < columns:
+    if count < columns and not estimator.takes_torque_prior:
         raise DataError(
-            f"{', '.join(observation.logs)}: {count} rows for {columns} parameters; record "
-            "more motion, or filter less (a higher --parallel-cutoff keeps more rows)"
+            f"{', '.join(observation.logs)}: {count} rows for {columns} parameters, and method "
+            f"{method} has no prior; expected --method weighted, or more motion"
         )
     matrix, joints = equations.stored_matrix, [joint.name for joint in observation.joints]
     problem = least_squares.Problem(
@@ -258,6 +278,7 @@ def fit_equations(
             autocorrelation.factors * white / share**0.5,
             np.zeros(len(joints)) if is_part else autocorrelation.lag1,
             equations.select_conditions(alive).get("loaded"),
+            data.prior,
         )
     warnings = differ.collect_warnings(equations.names, joints)
     raised = np.sqrt(1.0 + (differ.factors**2 - 1.0) / share)
@@ -337,6 +358,7 @@ def build_result(
     before, after = essential.compute_errors(data, estimate.beta)
     units = dict(zip(equations.names, equations.units, strict=True))
     is_estimated = np.isin(np.arange(len(units)), estimate.rank.kept_columns)
+    is_estimated &= ~np.isin(equations.names, [one.name for one in estimate.rank.dropped_columns])
     sigma, share = np.sqrt(np.diag(estimate.covariance)), estimate.prior_share
 
     def describe(i: int, name: str, unit: str) -> parameters.ParameterEstimate:
@@ -428,26 +450,6 @@ def build_joint_fits(
     return tuple(fits)
 
 
-def compare_bands(observation: Observation, estimate: least_squares.Estimate) -> list[str]:
-    """Returns a sentence where wider filters give other values: noise of the motion biases them."""
-    values = np.array(observation.report.bands.widest_values)
-    if not values.size:
-        return []
-    sigma = np.sqrt(np.diag(estimate.covariance))[: len(values)]
-    d = np.abs(values - estimate.beta[: len(values)])
-    apart = np.divide(d, sigma, out=np.zeros(len(d)), where=sigma > 0.0)
-    worst = int(apart.argmax())
-    # of long logs, only a part was looked at
-    rows = sum(log.rows for log in observation.report.logs)
-    share = min(1.0, REGRESSION.search_samples / rows)
-    if apart[worst] < THRESHOLDS.band_sigmas / share**0.5:
-        return []
-    return [
-        f"the widest cut-offs and the chosen ones differ by {apart[worst]:.2g} sigma "
-        f"({observation.names[worst]}): noise of the motion biases the values of the wider ones"
-    ]
-
-
 # Does the fit predict motion like that of its logs? Rows that were left out show it.
 
 
@@ -515,8 +517,11 @@ def cross_validate(
     held_out = [rows & (fold == k) for k in range(min(folds, len(seen)))]
     parts = [equations.compress_rows(part).combine_joints(sigma) for part in held_out]
     residual, known = np.zeros(len(equations.y)), parts[0][:0]
+    if equations.torque_prior is not None:
+        known = equations.torque_prior
     if prior is not None:
-        known = prior.extend_rows(np.linalg.norm(np.vstack(parts)[:, :-1], axis=0))
+        lengths = np.linalg.norm(np.vstack(parts)[:, :-1], axis=0)
+        known = np.vstack([known, prior.extend_rows(lengths)])
     every = np.arange(parts[0].shape[1] - 1) if columns is None else np.asarray(columns)
     for k, part in enumerate(held_out):
         if refit is None:

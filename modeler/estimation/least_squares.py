@@ -156,13 +156,13 @@ class Problem(Rows):
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """Holds the solution; c columns, n joints. Dropped columns have value 0 and no variance.
+    """Holds the solution; c columns, n joints. Columns that are not kept have value 0.
 
     Attributes:
         beta: (c,).
         covariance: (c, c), rows and columns of dropped parameters are 0.
         sigma: (n,) standard deviation of a row of each joint, N m or N; the weights are 1/sigma.
-        rank: columns kept and dropped.
+        rank: columns kept, and those that the rows alone do not determine.
         iterations: of the weights; 0 for ordinary least squares.
         is_converged: the weights reached their fixed point.
         condition_number: of W, kept columns.
@@ -228,15 +228,24 @@ def solve_least_squares(data: CompressedRegression, method: Method = "weighted")
     weight drive the iteration there. Their sigma is at least as large, beside the torques that
     cancel in them, as the others' beside the torques that are measured.
 
+    With a prior no column is left out: those that the rows do not tell apart share their effect,
+    and `rank` still says which they are.
+
     Args:
         data: compressed rows.
-        method: which weights.
+        method: which weights; "ordinary" knows no prior, as it has no scale.
     """
+    if method == "ordinary":
+        data = dataclasses.replace(data, prior=None)
     sigma = np.ones(len(data.rows))  # the rank does not depend on torques
-    unweighted = data.combine_joints(sigma)[:, :-1]
+    unweighted = dataclasses.replace(data, prior=None).combine_joints(sigma)[:, :-1]
     rank = find_independent_columns(unweighted, data.names)
     columns = np.asarray(rank.kept_columns, dtype=int)
     degrees = max(1, int(data.rows.sum()) - len(columns))
+    raw, scaled = compute_condition_numbers(unweighted[:, columns])
+    if data.prior is not None:  # no column carries what another does
+        columns = np.flatnonzero(np.any(data.combine_joints(sigma)[:, :-1], axis=0))
+        rank = dataclasses.replace(rank, kept_columns=tuple(columns.tolist()))
     beta, covariance = _solve_weighted(data, columns, sigma)
     iterations, is_converged = 0, True
     if method == "ordinary":
@@ -255,7 +264,6 @@ def solve_least_squares(data: CompressedRegression, method: Method = "weighted")
             change = np.abs(updated / sigma - 1.0)
             is_converged = bool(np.all(change < THRESHOLDS.weight_tolerance))
             sigma, iterations = updated, iterations + 1
-    raw, scaled = compute_condition_numbers(unweighted[:, columns])
     return Estimate(beta, covariance, sigma, rank, iterations, is_converged, raw, scaled, degrees)
 
 

@@ -207,9 +207,11 @@ class _Elimination:
         self.data, self.degrees, self.below = data, full.degrees, below
         self.whole = data.combine_joints(full.sigma) if full.whole is None else full.whole
         self.triangle = compute_triangle(self.whole)
-        self.every = list(full.rank.kept_columns)
+        unknown = {column.name for column in full.rank.dropped_columns}
+        self.every = [i for i in full.rank.kept_columns if data.names[i] not in unknown]
         self.squares = self.sum_squares(self.every)
-        self.noise = max(self.squares / full.degrees, np.finfo(float).tiny)
+        rounding = (THRESHOLDS.rounding_share * np.linalg.norm(self.triangle[:, -1])) ** 2
+        self.noise = max(self.squares, float(rounding), np.finfo(float).tiny) / full.degrees
         least = THRESHOLDS.rounding_share * data.compute_torque_norms()
         errors = np.maximum(data.compute_residual_norms(full.beta), least)
         self.largest_errors = THRESHOLDS.max_reduced_error * errors

@@ -174,8 +174,7 @@ def describe_repeats(repeated: int, rows: int, rate: float) -> str:
         f"all channels: {repeated} rows ({format_percent(repeated / rows)}) repeat the row "
         "before them: "
         "the recorder is faster than the robot, which gave about "
-        f"{rate * (1.0 - repeated / rows):.3g} rows a second; repeats are left out; record at the "
-        "rate of the robot"
+        f"{rate * (1.0 - repeated / rows):.3g} rows a second; record at the rate of the robot"
     )
 
 

@@ -145,12 +145,14 @@ class CompressedRegression:
         triangles: (n, c + 1, c + 1).
         rows: (n,) rows of each joint.
         free: (n,) True for joints without a motor, whose torque is 0 by definition.
+        prior: (r, c + 1) further rows [D, D beta_0] of a Gaussian prior, of standard deviation 1.
     """
 
     names: tuple[str, ...]
     triangles: np.ndarray
     rows: np.ndarray
     free: np.ndarray
+    prior: np.ndarray | None = None
 
     def compute_residual_norms(self, beta: np.ndarray) -> np.ndarray:
         """Computes (n,) ||y_j - W_j beta||, N m or N."""
@@ -165,18 +167,25 @@ class CompressedRegression:
         return self.compute_torque_norms() / np.sqrt(np.maximum(self.rows, 1))
 
     def combine_joints(self, sigma: np.ndarray) -> np.ndarray:
-        """Returns the triangle (c + 1, c + 1) of all rows, those of joint j divided by sigma_j."""
-        weighted = self.triangles / sigma[:, None, None]
-        return compute_triangle(weighted.reshape(-1, weighted.shape[2]))
+        """Returns the triangle (c + 1, c + 1) of all rows, those of joint j divided by sigma_j.
+
+        Those of the prior are among them.
+        """
+        weighted = (self.triangles / sigma[:, None, None]).reshape(-1, self.triangles.shape[2])
+        if self.prior is not None:
+            weighted = np.vstack([weighted, self.prior])
+        return compute_triangle(weighted)
 
     def drop_columns(self, names: Sequence[str]) -> "CompressedRegression":
         """Returns the same data without some columns."""
         kept_indices = [i for i, name in enumerate(self.names) if name not in set(names)]
+        columns = [*kept_indices, len(self.names)]
         return CompressedRegression(
             tuple(self.names[i] for i in kept_indices),
-            self.triangles[:, :, [*kept_indices, len(self.names)]],
+            self.triangles[:, :, columns],
             self.rows,
             self.free,
+            None if self.prior is None else self.prior[:, columns],
         )
 
 

@@ -1,3 +1,10 @@
+from .block_fits import (
+    BlockSums as BlockSums,
+    compute_prior_weights as compute_prior_weights,
+    number_blocks as number_blocks,
+    predict_left_out as predict_left_out,
+    sum_blocks as sum_blocks,
+)
 from .chunk import (
     SPREAD as SPREAD,
     Chunk as Chunk,
@@ -7,6 +14,7 @@ from .chunk import (
     read_part as read_part,
     read_spread as read_spread,
 )
+from .cutoffs import CutoffSearch as CutoffSearch, compute_chatter_ratios as compute_chatter_ratios
 from .log import (
     FINGER as FINGER,
     LONG as LONG,
@@ -50,11 +58,7 @@ from .observation import (
     iterate_blocks as iterate_blocks,
     rebuild_observation as rebuild_observation,
 )
-from .observe import (
-    CutoffSearch as CutoffSearch,
-    compute_chatter_ratios as compute_chatter_ratios,
-    observe as observe,
-)
+from .observe import observe as observe
 from .prepare import (
     LogRepair as LogRepair,
     PreparedLogs as PreparedLogs,

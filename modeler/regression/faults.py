@@ -57,7 +57,8 @@ Repairs = Collection[tuple[str, int, str]]
 """Channel, joint and kind of the defects that are mended."""
 
 CHANNELS = ("q", "tau", "qd", "qdd")
-ALWAYS = ("wrap", "repeated")
+REPEATED = ("rows", 0, "repeated")
+ALWAYS = ("wrap",)
 """Kinds that are mended without a fit: nothing is measured otherwise then."""
 
 
@@ -88,9 +89,10 @@ def repair_log(
         ]
 
     again = _find_repeats(log, scales)
-    kept_rows = np.flatnonzero(~again)
+    is_thinned = again.any() and (repairs is None or REPEATED in repairs)
+    kept_rows = np.flatnonzero(~again) if is_thinned else np.arange(log.rows)
     fresh = log
-    if again.any():
+    if is_thinned:
         steps = np.diff(log.time[kept_rows])
         longest = 1.5 * log.step + float(steps[steps <= noise.RESTS * np.median(steps)].max())
         rate = float(np.quantile(steps, THRESHOLDS.step_quantile)), longest
@@ -282,6 +284,8 @@ def _remove_defects(values: np.ndarray, defects: Sequence[Sequence[Defect]]) -> 
 
 def find_column(log: Log, spec: ModuleSpec, name: str, j: int) -> str:
     """Returns a channel as the log calls it."""
+    if name == "rows":
+        return "all channels"
     if name == "tau" and log.torque_source:
         return log.torque_source[j].split()[0]
     return f"{name}{spec.joints[j].name}"
@@ -289,7 +293,7 @@ def find_column(log: Log, spec: ModuleSpec, name: str, j: int) -> str:
 
 def parse_repairs(log: Log, spec: ModuleSpec, names: Collection[str]) -> set[tuple[str, int, str]]:
     """Returns `Repairs` by names as "q2 zero"."""
-    channels = [(name, j) for name in CHANNELS for j in range(len(spec.joints))]
+    channels = [("rows", 0), *((name, j) for name in CHANNELS for j in range(len(spec.joints)))]
     columns = {key: find_column(log, spec, *key) for key in channels}
     every = [(key, kind) for key in channels for kind in get_args(Kind)]
     return {(*key, kind) for key, kind in every if f"{columns[key]} {kind}" in names}

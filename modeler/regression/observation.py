@@ -171,6 +171,18 @@ class ModelRegressor:
         return self._model.base_regressor(s.q[w], s.qd[w], s.qdd[w], self._read_signals(s, w))
 
     @property
+    def is_tree(self) -> bool:
+        """Returns True without loops, which close at some positions only."""
+        return self._model.spec.closure is None
+
+    def evaluate_motion(self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray) -> np.ndarray:
+        """Returns (m, n, c) along another motion; what effects read is that of some samples."""
+        read = next(iter(self._signals.values()))
+        if read is not None:
+            read = read[np.linspace(0, len(read) - 1, len(q)).astype(int)]
+        return self._model.base_regressor(q, qd, qdd, read)
+
+    @property
     def pattern(self) -> NonzeroPattern:
         """Returns which columns can enter the torque of each joint."""
         return self._model.pattern

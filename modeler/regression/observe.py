@@ -1,180 +1,34 @@
-"""From logs to rows: repairs that a fit confirms, and the cut-offs of both filters."""
+"""From logs to rows: repairs, cut-offs, and plain filters where they predict better.
+
+Plain is what textbooks have: positions differentiated behind one low-pass, the same low-pass on
+both sides of the regression, rows at all speeds. Chosen and plain rows are fitted to four fifths of
+the time; the left-out fifth is predicted along one motion that belongs to neither, behind 5 Hz.
+"""
 
 import dataclasses
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from modeler.core.errors import DataError, LoopError
-from modeler.core.json import ShortRepr, select_attributes
-from modeler.numerics.filters import BANDWIDTH, SPREAD
-from modeler.numerics.least_squares import solve_scaled_least_squares
+from modeler.core.choices import LOW_SPEED
+from modeler.core.json import ShortRepr
+from modeler.core.table import format_error_pair
 from modeler.regression import prepare
-from modeler.regression.faults import ALWAYS, Defects, find_column
-from modeler.regression.log import Log
-from modeler.regression.motion import Processing, Segment, build_segment
-from modeler.regression.motion_noise import Bands, ChannelNoise, MotionNoise
-from modeler.regression.observation import Observation, assemble_observation, build_observation
-from modeler.regression.report import DataReport
-from modeler.regression.segments import (
-    clear_resting_speeds,
-    compute_speed_floors,
-    filter_segment,
-    find_shafts,
+from modeler.regression.block_fits import (
+    BlockSums,
+    compute_prior_weights,
+    number_blocks,
+    sum_blocks,
 )
+from modeler.regression.cutoffs import CutoffSearch, limit_cutoffs
+from modeler.regression.log import Log
+from modeler.regression.motion import Processing
+from modeler.regression.motion_noise import build_bands
+from modeler.regression.observation import Observation, build_observation
+from modeler.regression.repairs import choose_repairs
 from modeler.regression.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel
-
-SEVERAL = ("held", "lost")
-"""Kinds that befall several joints alike: one hypothesis."""
-
-
-def choose_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing) -> Processing:
-    """Returns the processing with the score of every repair; what is known already stays.
-
-    A repair is a hypothesis. Its score is the error out of block of a weighted fit to the log that
-    it mends, over that to the log without it: behind the same filters, on rows that both have. It
-    is made if that is below `CONFIRMED`; then the others are tried beside it.
-
-    Args:
-        model: the compiled robot.
-        logs: read with it.
-        asked: processing of them.
-    """
-    prepare.check_logs(model.spec, logs, asked)
-    if asked.repairs is not None or asked.keep_damaged:
-        return asked
-    repair = prepare.LogRepair(logs, model.spec)
-    open_ = [
-        (log, tried)
-        for run, log in enumerate(logs)
-        for tried in _propose_repairs(log, model, repair.get_repaired(run, asked)[1])
-    ]
-    chosen = dataclasses.replace(asked, repairs={})
-    if not open_:
-        return chosen
-    try:
-        every = dict.fromkeys((f"{log.name}: {key}" for log, keys in open_ for key in keys), 0.0)
-        whole = prepare.prepare_logs(
-            model.spec, logs, dataclasses.replace(asked, repairs=every), repair
-        )
-        cutoffs = whole.processing.position_cutoff, whole.processing.parallel_cutoff
-        base = _fit_blocks(model, logs, chosen, repair, cutoffs)
-    except (DataError, LoopError):
-        return chosen
-    is_new = True
-    while is_new and open_:
-        is_new = False
-        for log, keys in tuple(open_):
-            names = [f"{log.name}: {key}" for key in keys]
-            known = dict(chosen.repairs or {})
-            tried = dataclasses.replace(chosen, repairs=known | dict.fromkeys(names, 0.0))
-            try:
-                mended = _fit_blocks(model, logs, tried, repair, cutoffs)
-                score = _compute_score(mended, base)
-            except (DataError, LoopError):
-                continue
-            chosen = dataclasses.replace(chosen, repairs=known | dict.fromkeys(names, score))
-            if score < THRESHOLDS.max_repair_ratio:
-                base, is_new = mended, True
-                open_.remove((log, keys))
-    return chosen
-
-
-def _propose_repairs(
-    log: Log, model: CompiledModel, by_channel: Defects
-) -> Iterator[tuple[str, ...]]:
-    """Yields names of defects, as "q2 zero", that are mended together."""
-    several: dict[str, list[str]] = {}
-    for name, by_joint in by_channel.items():
-        for j, channel in enumerate(by_joint if name != "rows" else ()):
-            for kind in dict.fromkeys(one.kind for one in channel if one.kind not in ALWAYS):
-                key = f"{find_column(log, model.spec, name, j)} {kind}"
-                if kind in SEVERAL:
-                    several.setdefault(f"{name} {kind}", []).append(key)
-                else:
-                    yield (key,)
-    yield from map(tuple, several.values())
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class BlockFit:
-    """Rows of logs, and what a fit to other blocks leaves of each (s, n)."""
-
-    rows: Observation
-    residual: np.ndarray
-
-
-def _fit_blocks(
-    model: CompiledModel,
-    logs: Sequence[Log],
-    processing: Processing,
-    repair: prepare.LogRepair,
-    cutoffs: tuple[float, float],
-) -> BlockFit:
-    prepared = prepare.prepare_logs(model.spec, logs, processing, repair).set_cutoffs(*cutoffs)
-    rows = build_observation(model, logs, prepared)
-    return BlockFit(rows, compute_left_out_residual(rows))
-
-
-def compute_left_out_residual(rows: Observation) -> np.ndarray:
-    """Returns (s, n) torque less what a weighted fit to the other blocks of time predicts.
-
-    No parameter makes more torque than the joint has: what a motion does not show is near 0.
-    """
-    W, y, used = rows.columns, rows.torque, rows.used
-    block = np.arange(len(y)) * THRESHOLDS.repair_blocks // max(1, len(y))
-    driven = [j for j in rows.driven if used[:, j].sum() > THRESHOLDS.repair_blocks]
-    sigma = {j: float(np.sqrt(np.mean(y[used[:, j], j] ** 2))) for j in driven}
-    size = [np.mean(W[used[:, j], j] ** 2, axis=0) / sigma[j] ** 2 for j in driven]
-    if not size:
-        raise DataError("no row")
-    weak, left = np.maximum(np.max(size, axis=0), 1e-12), np.full(y.shape, np.nan)
-    scale = 1.0 / np.sqrt(weak)
-    parts = {
-        (j, b): (W[is_used, j] * scale, y[is_used, j], is_used)
-        for j in driven
-        for b in range(THRESHOLDS.repair_blocks)
-        if (is_used := used[:, j] & (block == b)).any()
-    }
-    least = {j: 1e-9 * sigma[j] for j in driven}
-    for _ in range(THRESHOLDS.repair_reweightings):
-        every = [(key, A, t, sigma[key[0]] ** 2) for key, (A, t, _) in parts.items()]
-        sums = {key: (A.T @ A / square, A.T @ t / square) for key, A, t, square in every}
-        for b in range(THRESHOLDS.repair_blocks):
-            some = [both for (_, other), both in sums.items() if other != b]
-            if not some:
-                continue
-            gram = np.sum([g for g, _ in some], axis=0) + np.eye(len(scale))
-            beta = np.linalg.solve(gram, np.sum([r for _, r in some], axis=0))
-            for (j, other), (A, t, is_used) in parts.items():
-                if other == b:
-                    left[is_used, j] = t - A @ beta
-        for j in driven:
-            sigma[j] = max(float(np.sqrt(np.nanmean(left[:, j] ** 2))), least[j])
-    return left
-
-
-def _compute_score(mended: BlockFit, logged: BlockFit) -> float:
-    """Returns geometric mean over joints of the ratio of errors on rows that both have."""
-    a, b = mended.rows, logged.rows
-    start, span = float(a.time.min()), float(np.ptp(np.append(a.time, b.time))) + 1.0
-    one, other = (fit_rows.time - start + 2.0 * span * fit_rows.run for fit_rows in (a, b))
-    order = np.argsort(other)
-    place = np.clip(np.searchsorted(other[order], one), 1, len(order) - 1)
-    nearest = order[place - (one - other[order[place - 1]] < other[order[place]] - one)]
-    close = np.abs(other[nearest] - one) <= 0.6 * np.median(np.diff(other[order]))
-    ratios = []
-    for j in range(a.torque.shape[1]):
-        left = np.stack([mended.residual[close, j], logged.residual[nearest[close], j]])
-        left = left[:, np.isfinite(left).all(axis=0)]
-        if left.shape[1] > THRESHOLDS.repair_blocks:
-            errors = np.maximum(np.sqrt(np.mean(left**2, axis=1)), 1e-300)
-            ratios.append(np.log(errors[0] / errors[1]))
-    return float(np.exp(np.mean(ratios))) if ratios else float("nan")
 
 
 def observe(
@@ -195,452 +49,147 @@ def observe(
         LoopError: hardly a sample closes the loops.
     """
     asked = choose_repairs(model, logs, processing or Processing())
-    prepared = prepare.prepare_logs(model.spec, logs, asked)
-    return build_observation(model, logs, limit_cutoffs(model, prepared, asked))
+    repair = prepare.LogRepair(logs, model.spec)
+    prepared = prepare.prepare_logs(model.spec, logs, asked, repair)
+    return build_observation(model, logs, choose_filters(model, logs, prepared, asked, repair))
 
 
-def limit_cutoffs(
-    model: CompiledModel, prepared: prepare.PreparedLogs, asked: Processing
-) -> prepare.PreparedLogs:
-    """Returns the logs with both cut-offs where the torques answer to the motion.
-
-    Parallel filter: where the noise of the positions, as torque, meets the noise of the torques.
-    With positions of noise density N_i, M the inertia matrix of the fitted model, and the residual
-    of joint j of variance s_j^2 behind a filter of cut-off f and noise bandwidth 1.0645 f,
-
-        A_j = (2 pi)^4 sum_i mean(M_ji^2) N_i,  T_j = s_j^2 / 1.0645 f - A_j mean(f^4),
-        f' = min_j (max(T_j, T_least) / A_j)^(1/4)
-
-    is tried anew until it stays, from below: from above, inertias bent by noise would hide it.
-    Then both are lowered further until the model's torque is `quiet`: noise without a floor.
-
-    Args:
-        model: the compiled robot.
-        prepared: the logs, with the widest cut-offs.
-        asked: the processing that was requested; a cut-off that it gives stays.
-    """
-    if asked.parallel_cutoff is not None or not prepared.noise.moving:
-        return prepared
-    is_fixed = asked.position_cutoff is not None
-    search = widen_search(CutoffSearch(model, prepared), is_fixed)
-    prepared, noise, wide = search.prepared, search.prepared.noise, search.prepared.processing
-    position = wide.position_cutoff
-    crossover = find_noise_crossover(search, position)
-    widest = search.fit(position, wide.parallel_cutoff)
-    chatter_free = search.find_chatter_free(crossover.cutoff, is_fixed)
-    if chatter_free.position < position:
-        crossover = find_noise_crossover(search, chatter_free.position)
-    parallel = prepare.round_to_two_digits(min(crossover.cutoff, chatter_free.parallel))
-    if not is_fixed:
-        lowered = min(noise.cutoff, chatter_free.position)
-        position = prepare.round_to_two_digits(max(lowered, 2.0 * parallel))
-    prepared = prepared.set_cutoffs(position, parallel)
-    said = _describe_choice(prepared, wide.parallel_cutoff, is_fixed, crossover, chatter_free)
-    by = crossover.joint if chatter_free.joint is None else chatter_free.joint
-    bands = Bands(
-        position,
-        parallel,
-        crossover.attach_torque_noise(noise),
-        widest_cutoffs=select_attributes(wide, "position_cutoff parallel_cutoff"),
-        reasons=said,
-        limiting_joint=None if by is None else noise.joints[by].joint,
-        chatter_ratio=chatter_free.chatter_ratio,
-        chatter_ratio_filtered=chatter_free.chatter_ratio_filtered,
-        widest_values=()
-        if widest is None or parallel > THRESHOLDS.cutoff_factor * wide.parallel_cutoff
-        else tuple(widest.solution[0].tolist()),
-    )
-    return dataclasses.replace(prepared, choices=(*prepared.choices, *said), lowered=bands)
+_OF_FILTERS = (
+    "position_cutoff",
+    "parallel_cutoff",
+    "decimation",
+    "derivatives",
+    "low_speed",
+    "speed_floors",
+    "edge",
+)
 
 
-def widen_search(search: "CutoffSearch", is_fixed: bool) -> "CutoffSearch":
-    """Returns the logs with later floors of the noise, where the torques follow the motion.
-
-    What a controller leaves of a motion may be flat for octaves before it falls, and so may the
-    noise of a slow sensor: positions do not distinguish which it is, torques do.
-
-    Args:
-        search: at the logs, with the first floors.
-        is_fixed: the position cut-off is the user's.
-    """
-    prepared, later = search.prepared, search.prepared.noise.take_last_floors()
-    if later.cutoff <= prepared.noise.cutoff:
-        return search
-    _, beta = search.narrowest_fit
-    position = prepared.processing.position_cutoff if is_fixed else later.cutoff
-    slowest = max(piece.step for piece in prepared.pieces)
-    position = min(position, THRESHOLDS.max_cutoff_share / slowest)
-    parallel = prepared.processing.parallel_cutoff
-    fit = search.fit(position, parallel)
-    if fit is None or beta is None:
-        return search
-    if compute_coherence(fit.rows, fit.rows.predict(beta)) < THRESHOLDS.min_coherence:
-        return search
-    wider = prepared.set_cutoffs(prepare.round_to_two_digits(position), parallel)
-    return CutoffSearch(search.model, dataclasses.replace(wider, noise=later))
-
-
-def _describe_choice(
+def choose_filters(
+    model: CompiledModel,
+    logs: Sequence[Log],
     prepared: prepare.PreparedLogs,
-    widest: float,
-    is_fixed: bool,
-    crossover: "NoiseCrossover",
-    chatter_free: "ChatterFreeCutoffs",
-) -> tuple[str, ...]:
-    """Returns what was chosen, and why."""
-    noise, chosen, said = prepared.noise, prepared.processing, []
-    position, parallel = chosen.position_cutoff, chosen.parallel_cutoff
-    if not is_fixed:
-        why = noise.explain_cutoff(position)
-        if chatter_free.chatter_ratio and position < noise.cutoff:
-            why = f"lowered with the parallel filter; by the noise alone {noise.cutoff:.2g} Hz"
-        said.append(f"position filter {position:g} Hz: {why}")
-    if chatter_free.joint is None:
-        return *said, f"parallel filter {parallel:g} Hz: {crossover.explain_cutoff(noise)}"
-    return (
-        *said,
-        f"parallel filter {parallel:g} Hz: above, the predicted torque has high-frequency content "
-        "that the measured one lacks",
-        f"the torques do not show the motion between {parallel:g} and {widest:g} Hz: up to there "
-        f"the predicted torque of joint {noise.joints[chatter_free.joint].joint} has "
-        f"{chatter_free.chatter_ratio:.2g} times the high-frequency content of the measured one",
-    )
+    asked: Processing,
+    repair: prepare.LogRepair | None = None,
+) -> prepare.PreparedLogs:
+    """Returns the logs behind the filters that are fitted.
 
-
-# Some of the samples, as rows of any cut-offs.
-
-
-@dataclass(frozen=True, eq=False)
-class CutoffSearch(ShortRepr):
-    """Pieces of the logs, of which `SAMPLES` samples at most are evaluated.
-
-    Attributes:
-        model: the compiled robot.
-        prepared: the logs; its parallel cut-off is the widest.
-    """
-
-    model: CompiledModel
-    prepared: prepare.PreparedLogs
-
-    @cached_property
-    def narrowest_fit(self) -> tuple[float, np.ndarray | None]:
-        """Returns the lowest parallel cut-off, Hz, with rows enough, and beta (c,) of its fit."""
-        noise, widest = self.prepared.noise, self.prepared.processing
-        highest, position = widest.parallel_cutoff, min(noise.cutoff, widest.position_cutoff)
-        least = max(THRESHOLDS.min_parallel_bands * noise.band, THRESHOLDS.min_parallel_cutoff)
-        least = min(least, highest)
-        while True:
-            fit = self.fit(max(position, 2.0 * least), least)
-            if least >= highest or (fit is not None and fit.is_determined):
-                return least, None if fit is None else fit.solution[0]
-            least = min(least / THRESHOLDS.cutoff_factor, highest)
-
-    @cached_property
-    def _segments_by_cutoff(self) -> dict[float, tuple[Segment, ...]]:
-        return {}
-
-    def filter_segments(self, position: float) -> tuple[Segment, ...]:
-        """Returns parts of the pieces behind a position filter, Hz, that are not all edge."""
-        if position not in self._segments_by_cutoff:
-            pieces, chosen = self.prepared.pieces, self.prepared.processing
-            chosen = dataclasses.replace(chosen, position_cutoff=position)
-            every = [build_segment(piece, chosen) for piece in pieces]
-            share = THRESHOLDS.search_samples / sum(len(piece.time) for piece in pieces)
-            parts = [
-                prepare.close_segment(self.model, _cut_segment(segment, place))[0]
-                for segment in every
-                if segment is not None
-                for place in _spread_windows(segment.samples, share)
-            ]
-            self._segments_by_cutoff[position] = tuple(part for part in parts if part.whole.any())
-        return self._segments_by_cutoff[position]
-
-    @cached_property
-    def _fits_by_cutoffs(self) -> "dict[tuple[float, float], WeightedFit | None]":
-        return {}
-
-    def fit(self, position: float, parallel: float) -> "WeightedFit | None":
-        """Returns the weighted fit behind filters of these cut-offs, Hz; None without rows."""
-        if (position, parallel) not in self._fits_by_cutoffs:
-            self._fits_by_cutoffs[position, parallel] = self._fit_rows(position, parallel)
-        return self._fits_by_cutoffs[position, parallel]
-
-    def _fit_rows(self, position: float, parallel: float) -> "WeightedFit | None":
-        segments, parts = self.filter_segments(position), find_shafts(self.model)
-        if not segments:
-            return None
-        chosen = self.prepared.set_cutoffs(position, parallel).processing
-        floors = compute_speed_floors(chosen, parts, segments, self.prepared.noise)
-        chosen = dataclasses.replace(chosen, speed_floors=floors)
-        still = [name for name, floor in floors.items() if floor == float("inf")]
-        segments = clear_resting_speeds(segments, parts, still)
-        some = tuple(filter_segment(segment, parts, chosen) for segment in segments)
-        report = DataReport(chosen, (), (), ())
-        return WeightedFit(self.model, assemble_observation(self.model, (), some, report))
-
-    def find_worst_chatter(self, position: float, parallel: float) -> tuple[float, int | None]:
-        """Returns the largest chatter ratio of the torque of `narrowest_fit`, and its joint."""
-        fit, (_, beta) = self.fit(position, parallel), self.narrowest_fit
-        if fit is None or beta is None:
-            return 0.0, None
-        ratios = compute_chatter_ratios(fit.rows, fit.rows.predict(beta))
-        return max(((most, j) for j, most in ratios.items()), default=(0.0, None))
-
-    def find_chatter_free(self, floor: float, is_fixed: bool) -> "ChatterFreeCutoffs":
-        """Returns cut-offs lowered until the predicted torque has no excess high-frequency content.
-
-        The model is that of `narrowest_fit`. First the parallel filter, then that of the
-        positions, then both.
-
-        Args:
-            floor: Hz to which the parallel filter is lowered before that of the positions is.
-            is_fixed: the position filter is the user's, and stays.
-        """
-        widest, (least, _) = self.prepared.processing, self.narrowest_fit
-        position, parallel = widest.position_cutoff, widest.parallel_cutoff
-        most, joint = 0.0, None
-        while True:
-            left, worst = self.find_worst_chatter(position, parallel)
-            if left <= THRESHOLDS.max_chatter_ratio or parallel <= least:
-                return ChatterFreeCutoffs(position, parallel, left, most, joint)
-            if left > most:
-                most, joint = left, worst
-            if parallel > floor:
-                parallel = max(floor, THRESHOLDS.cutoff_factor * parallel)
-                continue
-            if is_fixed or position <= THRESHOLDS.position_cutoff_ratio * parallel:
-                parallel = max(least, THRESHOLDS.cutoff_factor * parallel)
-            if not is_fixed:
-                position *= THRESHOLDS.cutoff_factor
-
-
-@dataclass(frozen=True)
-class ChatterFreeCutoffs(ShortRepr):
-    """Cut-offs behind which a model's torque has no excess high-frequency content.
-
-    Attributes:
-        position, parallel: Hz.
-        left: how many times as much as the measured torque the model's torque varies from row to
-            row there.
-        most: the same behind the first filters of which it is too much; 0 if behind none.
-        joint: of that; None without.
-    """
-
-    position: float
-    parallel: float
-    chatter_ratio_filtered: float
-    chatter_ratio: float
-    joint: int | None
-
-
-def _cut_segment(segment: Segment, place: slice) -> Segment:
-    """Returns the samples of a segment in some place of it."""
-    arrays: dict[str, Any] = {
-        member.name: x[place]
-        for member in dataclasses.fields(segment)
-        if isinstance(x := getattr(segment, member.name), np.ndarray)
-    }
-    extra = {name: x[place] for name, x in segment.extra.items()}
-    return dataclasses.replace(segment, **arrays, extra=extra)
-
-
-def _spread_windows(samples: int, share: float) -> list[slice]:
-    """Returns eight evenly spread windows that hold a share of the samples, or all of them."""
-    if share >= 1.0:
-        return [slice(0, samples)]
-    size = max(1, round(samples * share / 8.0))
-    starts = np.linspace(0, samples - size, 8).astype(int)
-    return [slice(int(start), int(start) + size) for start in starts]
-
-
-@dataclass(frozen=True, eq=False)
-class WeightedFit(ShortRepr):
-    """Weighted least squares of some rows; n joints.
-
-    Attributes:
-        model: the compiled robot.
-        rows: y = W beta.
-    """
-
-    model: CompiledModel
-    rows: Observation
-
-    @cached_property
-    def solution(self) -> tuple[np.ndarray, dict[int, float]]:
-        """Returns beta (c,), and the rms residual of each joint that is driven."""
-        rows = self.rows
-        W = {j: rows.columns[rows.used[:, j], j] for j in rows.driven}
-        y = {j: rows.torque[rows.used[:, j], j] for j in rows.driven}
-        sigma = {j: float(np.sqrt(np.mean(y[j] ** 2))) for j in rows.driven}
-        least = {j: THRESHOLDS.min_residual_share * sigma[j] for j in sigma}
-        beta = np.zeros(len(rows.names))
-        for _ in range(THRESHOLDS.weight_iterations if W else 0):
-            matrix, right = (np.concatenate([x[j] / sigma[j] for j in W]) for x in (W, y))
-            beta = solve_scaled_least_squares(matrix, right, THRESHOLDS.min_singular_share)
-            free = 1.0 - min(0.9, len(beta) / sum(map(len, y.values())))
-            squares = {j: np.mean((y[j] - W[j] @ beta) ** 2) / free for j in W}
-            sigma = {j: max(float(np.sqrt(squares[j])), least[j]) for j in W}
-        return beta, sigma
-
-    @property
-    def is_determined(self) -> bool:
-        """Returns True if there are rows enough for the residual to mean something."""
-        count = self.rows.used[:, self.rows.driven].sum()
-        return bool(count >= THRESHOLDS.min_rows_per_parameter * len(self.rows.names))
-
-    @cached_property
-    def _inertias(self) -> tuple[np.ndarray, np.ndarray]:
-        """(k, n, n) matrices at some of the rows, and (k, n) accelerations there."""
-        beta, _ = self.solution
-        q = np.concatenate([part.segment.q[part.rows.centres] for part in self.rows.stretches])
-        every = max(1, len(q) // THRESHOLDS.inertia_postures)
-        return self.model.inertia_matrix(q[::every], beta), self.rows.qdd[::every]
-
-    def propagate_noise(self, noise: MotionNoise) -> dict[int, float]:
-        """Returns the torque of the motion's noise at 1 Hz, as density, (N m)^2/Hz, by joint."""
-        densities = [joint.compute_acceleration_density(1.0) for joint in noise.joints]
-        squares = np.mean(self._inertias[0] ** 2, axis=0) @ densities
-        return {j: float(squares[j]) for j in self.rows.driven}
-
-    def compute_inertial_power(self) -> dict[int, float]:
-        """Returns mean square of the torque of inertia, (N m)^2, by driven joint."""
-        torque = np.einsum("kij,kj->ki", *self._inertias)
-        return {j: float(np.mean(torque[:, j] ** 2)) for j in self.rows.driven}
-
-
-# How much high-frequency content a model's torque has, and how much of that the measured one does.
-
-
-def compute_chatter_ratios(rows: Observation, model: np.ndarray) -> dict[int, float]:
-    """Returns the high-frequency content of a model's torque over the measured one, by joint.
-
-    Root mean square of the second differences from row to row, over that of the torque itself, of
-    the model's over that of the measured: a gain of the channel leaves it as it is.
-    """
-    ratios = {}
-    for j, bent, sizes in compute_curvatures(rows, model):
-        if bent[0].any() and sizes.all():
-            measured, modelled = np.linalg.norm(bent, axis=1) / sizes
-            ratios[j] = float(modelled / measured)
-    return ratios
-
-
-def compute_coherence(rows: Observation, model: np.ndarray) -> float:
-    """Returns the share of a model's high-frequency torque (s, n) that the measured one has.
-
-    sum of b m over the sum of m^2, b and m second differences of the measured and of the model's
-    torque, each joint in units of its torque: 1 of a motion, 0 of noise of its sensor.
-    """
-    product = square = 0.0
-    for _, (measured, modelled), sizes in compute_curvatures(rows, model):
-        unit = max(float(sizes[0]), 1e-300) ** 2
-        product += float(measured @ modelled) / unit
-        square += float(modelled @ modelled) / unit
-    return product / square if square > 0.0 else 0.0
-
-
-def compute_curvatures(
-    rows: Observation, model: np.ndarray
-) -> Iterator[tuple[int, np.ndarray, np.ndarray]]:
-    """Yields second differences (2, k) from row to row, and sizes (2,), of torques by joint.
+    Those of `limit_cutoffs`, or plain ones where the mean over joints of the log of their error is
+    lower by 3 %, and by more than its standard error over five blocks of time: on all rows of the
+    motion, and on those far from reversals, where friction hides no error of the inertias.
 
     Args:
-        rows: with the measured torque, which comes first.
-        model: (s, n) the model's torque.
+        model: the compiled robot.
+        logs: read with it.
+        prepared: the logs, with the widest cut-offs.
+        asked: the processing that was requested; what it states about filters rules.
+        repair: of the logs, where it is shared.
     """
-    near = np.diff(rows.segment) == 0
-    near = near[1:] & near[:-1]
-    for j in rows.driven:
-        used = rows.whole[:, j]
-        used_rows = near & used[2:] & used[1:-1] & used[:-2]
-        if used_rows.sum() >= THRESHOLDS.min_curvature_rows:
-            both = np.stack([rows.torque[:, j], model[:, j]])
-            yield j, np.diff(both, 2)[:, used_rows], np.sqrt(np.mean(both[:, used] ** 2, axis=1))
+    chosen = limit_cutoffs(model, prepared, asked)
+    stated = (getattr(asked, name) for name in _OF_FILTERS)
+    defaults = (getattr(Processing(), name) for name in _OF_FILTERS)
+    is_stated = tuple(stated) != tuple(defaults)
+    # rows of a joint without a motor say 0 = W beta: no block shows what they are worth
+    if is_stated or not prepared.noise.moving or not all(j.actuated for j in model.spec.joints):
+        return chosen
+    as_measured = dataclasses.replace(
+        asked, derivatives="position", low_speed=0.0, keep_contradicted=True
+    )
+    plain = prepare.prepare_logs(model.spec, logs, as_measured, repair)
+    comparison = _compare_filters(model, logs, chosen, plain)
+    if comparison is None:
+        return chosen
+    errors = format_error_pair(*comparison.errors)
+    said = (
+        f"plain filters of {comparison.cutoff:g} Hz, rows at all speeds: fifths of the time, left "
+        f"out of the fit, are predicted with {errors[1]} error (mean of the joints), behind the "
+        f"filters above with {errors[0]}"
+    )
+    plain = plain.set_cutoffs(comparison.cutoff, comparison.cutoff)
+    bands = dataclasses.replace(build_bands(plain.noise, plain.processing), reasons=(said,))
+    return dataclasses.replace(plain, choices=(*chosen.choices, said), lowered=bands)
 
 
 @dataclass(frozen=True)
-class NoiseCrossover(ShortRepr):
-    """Where the noise of the motion, as torque, meets that of the drives.
+class PlainFilters(ShortRepr):
+    """Plain filters that predict better.
 
     Attributes:
         cutoff: Hz.
-        joint: it does so on; None at the highest cut-off, where it has not yet.
-        torques: by driven joint, torque of the noise of the motion at 1 Hz and noise of the torque
-            itself, (N m)^2/Hz.
-        answered: True where it is lower, for drives that may answer the noise.
-        bounded: True where it would be lower, but may not.
+        errors: relative, left out of the fit, of the chosen filters and of these.
     """
 
     cutoff: float
-    joint: int | None = None
-    torques: Mapping[int, tuple[float, float]] = field(default_factory=dict)
-    is_drive_limited: bool = False
-    is_bounded: bool = False
-
-    def explain_cutoff(self, noise: MotionNoise) -> str:
-        """Returns why the cut-off is where it is, in words."""
-        if self.joint is None:
-            why = "the widest that the motion needs; up to there the torque noise is larger"
-        elif self.is_drive_limited:
-            why = (
-                "above, encoder noise that the controller feeds back could bias the inertias, most "
-                f"by joint {noise.joints[self.joint].joint}"
-            )
-        else:
-            why = (
-                f"there the torque of joint {noise.joints[self.joint].joint} by the noise of the "
-                f"{noise.quantity} is as large as its residual"
-            )
-        return f"{why}; it would be lower, but for the motion band" if self.is_bounded else why
-
-    def attach_torque_noise(self, noise: MotionNoise) -> tuple[ChannelNoise, ...]:
-        """Returns the channels of the motion, with the noise of the torques of their joints."""
-        channels = list(noise.joints)
-        for j, (A, T) in self.torques.items():
-            channels[j] = dataclasses.replace(channels[j], noise_torque=A, torque_noise=T)
-        return tuple(channels)
+    errors: tuple[float, float]
 
 
-def find_noise_crossover(search: CutoffSearch, position: float) -> NoiseCrossover:
-    """Returns where the noise of the motion, as torque, meets that of the drives.
+@dataclass(frozen=True, eq=False)
+class Referee(ShortRepr):
+    """One motion, by which fits are judged.
 
-    And no more than where a drive that answers the same noise could bend the inertias by one
-    standard deviation: there the share P_n / P_s of it in the torque of inertia is 1 / n, n rows.
-    (Of noise in W of power P_n, and noise of variance V in y that is wholly correlated with it, the
-    relative bias is sqrt(P_n V) / P_s, and the relative standard deviation sqrt(V / n P_s).) Of
-    logged accelerations this alone: as torque their noise is as flat as that of the drives.
-
-    Args:
-        search: at the logs.
-        position: highest cut-off of the position filter, Hz.
+    Attributes:
+        logs: of it.
+        prior: (c,) weights of the torque prior.
+        seen: normal equations of all its rows, and of those far from reversals.
     """
-    noise, highest = search.prepared.noise, search.prepared.processing.parallel_cutoff
-    least, _ = search.narrowest_fit
-    power = 2 * noise.order
-    at, value = least, min(noise.cutoff, position)
-    torques = dict[int, tuple[float, float]]()
-    for _ in range(THRESHOLDS.crossover_fits):
-        fit = search.fit(max(value, 2.0 * at), at)
-        if fit is None:
-            return NoiseCrossover(highest)
-        _, sigma = fit.solution
-        spread = at / (2.0 * np.pi * SPREAD)
-        # mean of f^power over the squared gain exp(-f^2 / spread^2) of the filter
-        inside = spread**power * (1.0, 0.5, 0.75)[noise.order]
-        for j, density in fit.propagate_noise(noise).items():
-            T = sigma[j] ** 2 / (BANDWIDTH * at)
-            torques[j] = density, max(T - density * inside, THRESHOLDS.min_torque_noise_share * T)
-        meets = torques.items() if power else ()
-        crossovers = [((T / max(A, 1e-300)) ** (1.0 / power), j) for j, (A, T) in meets]
-        shares = {j: A * inside * BANDWIDTH * at / sigma[j] ** 2 for j, (A, _) in torques.items()}
-        inertial = sum(value / sigma[j] ** 2 for j, value in fit.compute_inertial_power().items())
-        rows = len(fit.rows.time) * sum(shares.values())
-        answered = at * (inertial / max(rows, 1e-300)) ** (1.0 / (power + 2))
-        crossovers.append((answered, max(shares, key=lambda j: shares[j], default=0)))
-        new = float(np.clip(min(crossovers)[0], least, highest))
-        if abs(new - at) < THRESHOLDS.cutoff_tolerance * at:
-            break
-        at = new
-    limit, by = min(crossovers)
-    joint = None if at >= highest else by
-    return NoiseCrossover(at, joint, torques, limit == answered, at <= least > limit)
+
+    logs: Sequence[Log]
+    prior: np.ndarray
+    seen: tuple[BlockSums, ...]
+
+    def compute_log_errors(self, rows: Observation) -> list[np.ndarray]:
+        """Returns (J, B) log errors of fits to these rows without a block, in that block."""
+        sums = sum_blocks(rows, number_blocks(rows, self.logs), self.prior)
+        return [one.compute_log_errors(sums.solutions) for one in self.seen]
+
+
+def _compare_filters(
+    model: CompiledModel,
+    logs: Sequence[Log],
+    chosen: prepare.PreparedLogs,
+    plain: prepare.PreparedLogs,
+) -> PlainFilters | None:
+    """Returns the best plain filters; None where the chosen ones do as well."""
+    highest = THRESHOLDS.max_cutoff_share / max(piece.step for piece in plain.pieces)
+    judged = min(THRESHOLDS.judged_cutoff, highest)
+    smooth = min(max(plain.noise.cutoff, judged), highest)
+    masked = dataclasses.replace(plain.processing, low_speed=LOW_SPEED)
+    used, low = chosen.processing, dataclasses.replace(plain, processing=masked)
+    search = CutoffSearch(model, plain)
+    first = CutoffSearch(model, chosen).fit(used.position_cutoff, used.parallel_cutoff)
+    judges = [
+        CutoffSearch(model, plain).fit(smooth, judged),
+        CutoffSearch(model, low).fit(smooth, judged),
+    ]
+    if first is None or None in judges:
+        return None
+    prior = compute_prior_weights(first.rows)
+    seen = [sum_blocks(j.rows, number_blocks(j.rows, logs), prior) for j in judges if j is not None]
+    referee = Referee(logs, prior, tuple(seen))
+    before, best = referee.compute_log_errors(first.rows), (0.0, 0.0)
+    for cutoff in THRESHOLDS.plain_cutoffs:
+        fit = search.fit(cutoff, cutoff) if cutoff <= highest else None
+        if fit is None or not fit.rows.driven:
+            continue
+        after = referee.compute_log_errors(fit.rows)
+        changes = [_compute_change(a, b) for a, b in zip(after, before, strict=True)]
+        best = min(best, (max(changes), cutoff))
+    if best[0] >= np.log(THRESHOLDS.max_plain_ratio):
+        return None
+    known = np.isfinite(before[0])
+    torque = 0.5 * np.log(seen[0].squares[known] / seen[0].count[known])
+    error = float(np.exp(np.mean(before[0][known] - torque)))
+    if error < THRESHOLDS.min_plain_error:
+        return None
+    return PlainFilters(best[1], (error, error * float(np.exp(best[0]))))
+
+
+def _compute_change(after: np.ndarray, before: np.ndarray) -> float:
+    """Returns the mean change of log errors (J, B); 0 within its standard error over blocks."""
+    change = after - before
+    known = np.isfinite(change)
+    blocks = [np.mean(c[k]) for c, k in zip(change.T, known.T, strict=True) if k.any()]
+    if len(blocks) < 2:
+        return 0.0
+    mean = float(np.mean(change[known]))
+    return mean if mean < -np.std(blocks, ddof=1) / len(blocks) ** 0.5 else 0.0

@@ -89,7 +89,7 @@ def describe_damages(
         repairs: by column and kind, the held-out error mended over that as logged.
     """
     repeats = [channel for channel in defects_by_channel.get("rows", ()) if channel]
-    descriptions = [_describe_repeats(log, rows, channel) for channel in repeats]
+    descriptions = [_describe_repeats(log, rows, channel, repairs) for channel in repeats]
     for name, by_joint in defects_by_channel.items():
         if name == "rows":
             continue
@@ -134,12 +134,19 @@ def _compute_times(
     return tuple(one.time for one in defects), lengths
 
 
-def _describe_repeats(log: Log, rows: int, defects: Sequence[Defect]) -> Damage:
+def _describe_repeats(
+    log: Log, rows: int, defects: Sequence[Defect], repairs: Mapping[str, float]
+) -> Damage:
     """Returns rows that were recorded more than once."""
     count = sum(one.stop - one.start for one in defects)
     when, rate = _compute_times(defects[:1], log.step), 1.0 / log.step
-    line = describe_repeats(count, rows, rate)
-    return Damage("all channels", "", "repeated", *when, count, rate, "Hz", line)
+    score = repairs.get("all channels repeated", np.nan)
+    is_mended = bool(score < THRESHOLDS.max_repair_ratio)
+    done = "repeats are left out" if is_mended else "used as logged"
+    done += f", held-out error x {score:.2f}" if np.isfinite(score) else ""
+    line = f"{describe_repeats(count, rows, rate)}; {done}"
+    column, count = "all channels", count * is_mended
+    return Damage(column, "", "repeated", *when, count, rate, "Hz", line, is_mended)
 
 
 _WORDS: Mapping[str, str] = {

@@ -24,8 +24,9 @@ from modeler.regression.log import (
 )
 from modeler.regression.motion import ChosenProcessing, Processing, Segment, build_segment
 from modeler.regression.observation import Observation, build_observation
-from modeler.regression.observe import choose_repairs, limit_cutoffs
+from modeler.regression.observe import choose_filters
 from modeler.regression.read import ChannelRanges, Source, cut_rows, join_logs, join_windows
+from modeler.regression.repairs import choose_repairs
 from modeler.regression.report import (
     DataReport,
     LogFacts,
@@ -161,7 +162,8 @@ def choose_from_windows(
     try:
         processing = choose_repairs(model, seen, processing)
         prepared = prepare.prepare_logs(model.spec, seen, processing)
-        observation = build_observation(model, seen, limit_cutoffs(model, prepared, processing))
+        filtered = choose_filters(model, seen, prepared, processing)
+        observation = build_observation(model, seen, filtered)
     except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
         where = f"the {sum(len(log_windows) for log_windows in windows)} windows"
         raise WholeLogNeeded(f"{error}; found in {where} by which long logs are judged") from None

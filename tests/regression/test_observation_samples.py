@@ -409,7 +409,8 @@ def test_noise_of_logged_accelerations_lowers_the_parallel_filter_and_is_in_sigm
         tau += 0.01 * np.std(tau, axis=0) * rng.normal(size=tau.shape)
         for size in (0.0, 2.0):
             seen = qdd + size * rng.normal(size=q.shape)
-            result = observe(model, [Log("a", ("1", "2"), time, q, tau, qd=qd, qdd=seen)])
+            log = Log("a", ("1", "2"), time, q, tau, qd=qd, qdd=seen)
+            result = observe(model, [log], Processing(derivatives="log"))
             cutoffs.append(result.report.processing.parallel_cutoff)
         fit = identify(result, "weighted", model)
         z.append((fit.beta - beta) / np.sqrt(np.diag(fit.covariance)))
