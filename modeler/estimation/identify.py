@@ -287,7 +287,8 @@ def fit_equations(
     if prior is not None:  # rows that repeat each other weigh less beside it
         full = autocorrelation.inflate_covariance(estimate.covariance)
         more = np.maximum(np.diag(covariance) - np.diag(full), 0.0)
-        estimate = prior.combine_with_data(estimate, data, full, more, joints)
+        both, prior, lines = prior.combine_if_useful(estimate, data, full, more, joints)
+        estimate, notes = both, [*notes, *lines]
     essential = parameters.select_essential_parameters(data, estimate, method, below)
     sigma = estimate.sigma
     if essential.dropped and below is None and not noise_only:

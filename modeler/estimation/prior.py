@@ -25,7 +25,7 @@ from scipy.special import chdtrc, chdtri
 
 from modeler.core.errors import DataError
 from modeler.core.manifest import ModuleSpec
-from modeler.core.table import format_percent
+from modeler.core.table import format_error_pair, format_percent
 from modeler.estimation import physical_consistency
 from modeler.estimation.covariance import compute_roots
 from modeler.estimation.least_squares import Estimate, expand_columns, solve_by_qr
@@ -233,6 +233,38 @@ class Prior:
             contradicted=(*against.values(), *raised),
             sentences=(*estimate.sentences, *prior.format_sentences(share)),
         )
+
+    def combine_if_useful(
+        self,
+        estimate: Estimate,
+        data: least_squares.CompressedRegression,
+        covariance: np.ndarray,
+        more: np.ndarray,
+        joints: Sequence[str],
+    ) -> tuple[Estimate, "Prior | None", list[str]]:
+        """Returns `combine_with_data`, the prior that is used, and a line if it is not all of this.
+
+        Bodies of a drawing, or of another build, may be sure of themselves only: where a joint's
+        torque is predicted worse with them than by none at all, and better without, they are left
+        out.
+        """
+        both = self.combine_with_data(estimate, data, covariance, more, joints)
+        torque = np.where(data.free, np.inf, data.compute_torque_norms())
+        free, bound = (data.compute_residual_norms(fit.beta) for fit in (estimate, both))
+        worst = int(np.argmax(np.where(free < torque, bound / np.maximum(torque, 1e-300), 0.0)))
+        if not self.has_bodies or bound[worst] <= torque[worst]:
+            return both, self, []
+        bodies = [name for name, places in self.groups.items() if len(places) > 1]
+        error, before = format_error_pair(*(x[worst] / torque[worst] for x in (bound, free)))
+        line = (
+            f"prior of the robot file on {', '.join(bodies)}: left out, as the fit error of joint "
+            f"{joints[worst]} is {error} with it and {before} without"
+        )
+        others = self.exclude_groups(bodies)
+        if not others.groups:
+            return estimate, None, [line]
+        rest = others.combine_with_data(estimate, data, covariance, more, joints)
+        return rest, others, [line]
 
     def format_sentences(self, share: np.ndarray) -> list[str]:
         """Returns what the prior did."""

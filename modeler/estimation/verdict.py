@@ -338,7 +338,9 @@ def judge_fit(
     rows = find_connected_rows(observation)
     is_part, data = data is not None, data or equations.compress_rows(rows)
     sigma = np.array([joint.sigma for joint in result.joints])
-    seen = cross_validate(equations, rows, sigma, refit, build_prior(model.spec))
+    has_prior = any(parameter.prior for parameter in result.parameters)
+    prior = build_prior(model.spec) if has_prior else None
+    seen = cross_validate(equations, rows, sigma, refit, prior)
     warnings = [warning for warning in log_warnings if not warning.is_undetectable]
     possible = None
     if not any(warning.is_certain for warning in warnings):  # else the fit describes the fault
