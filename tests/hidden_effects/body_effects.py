@@ -98,7 +98,7 @@ def _soften(draw: Draw, j: int, kind: float, hertz: float) -> float:
     """The stiffness of a gear that swings at so many hertz with its motor locked."""
     plant, inertia = draw.plant, draw.scales.inertia[j]
     stiffness = inertia * (2 * np.pi * hertz) ** 2
-    plant.fit_nonparametric_baseline[j], plant.gear_stiffness[j] = kind, stiffness
+    plant.flexible[j], plant.gear_stiffness[j] = kind, stiffness
     return float(stiffness)
 
 
@@ -106,7 +106,7 @@ def _soften(draw: Draw, j: int, kind: float, hertz: float) -> float:
 def elasticity(draw: Draw) -> Hidden:
     """Motor and link swing against each other; the encoder is on the motor."""
     j, plant = draw.joint, draw.plant
-    if plant.fit_nonparametric_baseline.any():
+    if plant.flexible.any():
         raise Impossible
     hertz = draw.between(8, 25)
     stiffness = _soften(draw, j, ELASTIC, hertz)
@@ -119,7 +119,7 @@ def elasticity(draw: Draw) -> Hidden:
 def backlash(draw: Draw) -> Hidden:
     """A gap of 1 to 5 mrad in the gear of a joint whose load changes sign."""
     plant = draw.plant
-    if plant.fit_nonparametric_baseline.any():
+    if plant.flexible.any():
         raise Impossible
     j = draw.pick([k for k in range(draw.n) if draw.scales.crossings[k] > 4])
     stiffness = _soften(draw, j, WITH_GAP, draw.between(35, 55))
