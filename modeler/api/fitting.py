@@ -538,7 +538,9 @@ def _fit_gains(
         result = estimation.identify_gains(again, observation, payloads).result
     with report_step("judging the fit"):
         unseparated = estimation.find_heterogeneous_logs(again, observation, payloads)
-        faults = [DataWarning(line, affects_values=True) for line in unseparated]
+        faults = [
+            DataWarning(line, affects_values=True, code="known_quantity") for line in unseparated
+        ]
         equations = estimation.build_loaded_equations(again, observation, payloads).equations
         result = add_verdict(again, observation, FitOutcome(result, faults, equations=equations))
     if lines := estimation.describe_deviations(compiled.spec, gain_estimates):

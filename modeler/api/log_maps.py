@@ -231,11 +231,11 @@ def _fit_mapping(
             log = read_mapped_log(place, compiled.spec, names)
         rows = regression.observe(compiled, [log])
         result = identify(rows, "weighted", compiled)
-        result_with_verdict = judge_fit(compiled, rows, result, find_log_faults(compiled, rows))
+        result = judge_fit(compiled, rows, result, find_log_faults(compiled, rows))
     except ModelerError:
         return MappingFit(float("inf"))
-    usable = result_with_verdict.verdict is not None and result_with_verdict.verdict.valid
-    return MappingFit(result_with_verdict.relative_error, (), usable, rows.report)
+    usable = result.verdict is not None and result.verdict.is_valid_everywhere
+    return MappingFit(result.relative_error, (), usable, rows.report)
 
 
 def read_mapped_log(

@@ -157,8 +157,9 @@ def _fit_mapping(
         *observation.report.logs[0].notes,
         *(f.line for f in findings if not f.is_undetectable),
     ]
-    if verdict is not None and not verdict.valid:
-        lines += [*verdict.warnings, f"a fit of {observation.robot}: {verdict.line}"]
+    usable = verdict is not None and verdict.is_valid_everywhere
+    if verdict is not None and not usable:
+        lines += [*verdict.lines, f"a fit of {observation.robot}: {verdict.line}"]
     elif result.relative_error > THRESHOLDS.max_unremarked_error:
         lines.append(
             f"a fit of {observation.robot} leaves {format_percent(result.relative_error)} of the "
@@ -166,7 +167,6 @@ def _fit_mapping(
         )
     fresh = [line for line in dict.fromkeys(lines) if not line.endswith(inspection.notes)]
     longer = [line for line in fresh if not any(o != line and o.endswith(line) for o in fresh)]
-    usable = verdict is not None and verdict.valid
     return MappingFit(result.relative_error, tuple(longer), usable, observation.report)
 
 

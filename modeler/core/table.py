@@ -372,6 +372,19 @@ DIGITS = 4
 """Most significant digits of an error that is printed: what does not differ in them is the same."""
 
 
+def format_joints(names: Sequence[str]) -> str:
+    """Returns "joint 3" or "joints 1 to 5, 7": three numbers in a row and more are a range."""
+    runs = list[list[str]]()
+    for name in names:
+        last = runs[-1][-1] if runs else ""
+        if name.isdigit() and last.isdigit() and int(name) == int(last) + 1:
+            runs[-1].append(name)
+        else:
+            runs.append([name])
+    parts = [f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(run) for run in runs]
+    return f"joint{'s' * (len(names) > 1)} {', '.join(parts)}"
+
+
 def format_percent(share: float | None, digits: int = 3) -> str:
     """Returns a share in percent, as in "3.41 %"; "-" where it is not known.
 

@@ -421,11 +421,12 @@ def _build_history_step(fitted: _FittedModel, score: scoring.Score, side: int) -
     model, rows = fitted.model, fitted.rows
     left = compute_residuals(model, rows.compiled, rows.fit_observation)
     errors = {name: pair[side] for name, pair in score.errors.items()}
-    error, fit_errors = scoring.compute_rms_error(errors.values()), scoring.compute_errors(left)
+    error, every = scoring.compute_rms_error(errors.values()), scoring.compute_errors(left)
+    fit_errors = [value for name, value in every.items() if name in errors]
     held_out = tuple(log.name for log in rows.logs.held_out)
     joints = {name: (error, error) for name, error in errors.items()}
     shapes = dict[str, float]()
-    start = "", None, shapes, error, scoring.compute_rms_error(fit_errors.values()), held_out
+    start = "", None, shapes, error, scoring.compute_rms_error(fit_errors), held_out
     return Addition(*start, model.robot_text, model.processing.delay, joints=joints)
 
 

@@ -468,7 +468,7 @@ def _summarise_joints(
 def decide_verdict(
     effects: Sequence[result.Finding], joints: dict[str, result.JointState], search: Search
 ) -> str:
-    """Decides one of the five verdicts.
+    """Decides one of the five verdicts, of the joints that are predicted.
 
     Args:
         effects: that are named, best first.
@@ -480,9 +480,11 @@ def decide_verdict(
     few = not any(y.size > 100 for y in search.start.y)
     if few or messages.compute_duration(search.start) < THRESHOLDS.min_duration:
         return "cannot tell"
-    if any(state.error_after > THRESHOLDS.max_predictive_error for state in joints.values()):
+    most = THRESHOLDS.max_predictive_error
+    judged = [state for state in joints.values() if not state.error_after > most]
+    if not judged:
         return "cannot tell"
-    if any(state.is_unexplained for state in joints.values()):
+    if any(state.is_unexplained for state in judged):
         return "unexplained"
     return "nothing significant"
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from modeler import regression
 from modeler.core.manifest import JointSpec
-from modeler.core.table import format_error_pair, format_percent
+from modeler.core.table import format_error_pair, format_joints, format_percent
 from modeler.diagnosis.candidates import StatedEffects
 from modeler.diagnosis.generation import compute_burst_share
 from modeler.diagnosis.plausibility import is_gain, is_torque_computed
@@ -348,7 +348,7 @@ def add_sentences(diagnosis: Diagnosis) -> Diagnosis:
     reported_joints = {} if void else diagnosis.joints
     lines += describe_rejected(diagnosis) if reported_joints else []
     for name, joint in reported_joints.items():
-        if joint.is_unexplained:
+        if joint.is_unexplained and name not in diagnosis.unjudged_joints:
             left = joint.systematic_share + joint.noise_share
             lines.append(
                 f"joint {name}: {format_percent(joint.systematic_share / left)} of the remaining "
@@ -356,6 +356,11 @@ def add_sentences(diagnosis: Diagnosis) -> Diagnosis:
                 "variance is systematic and not explained by the catalogue"
                 f"{_describe_bursts(diagnosis, name)}"
             )
+    if reported_joints and diagnosis.unjudged_joints and diagnosis.verdict != "cannot tell":
+        lines.append(
+            f"{format_joints(diagnosis.unjudged_joints)} left out: their held-out motion is not "
+            "predicted; record the motion of `modeler excite`"
+        )
     lines += _list_changes(diagnosis) + [f"data: {line}" for line in diagnosis.data_warnings]
     if not diagnosis.held_out_logs:
         lines.append(
@@ -430,13 +435,11 @@ def _write_headline(diagnosis: Diagnosis) -> str:
     if diagnosis.has_contradictions:
         return "cannot tell: channels of the logs contradict the model; mend them first"
     if diagnosis.verdict == "cannot tell":
-        joints = diagnosis.joints.items()
-        unpredicted_joints = [name for name, joint in joints if joint.error_after > 1.0]
-        if unpredicted_joints:
+        if diagnosis.unjudged_joints:
+            where = format_joints(diagnosis.unjudged_joints)
             return (
                 f"cannot tell: what is fitted to the logs says nothing of the held-out motion of "
-                f"joint {', '.join(unpredicted_joints)}; record longer motions, at many speeds and "
-                "poses"
+                f"{where}; record longer motions, at many speeds and poses"
             )
         return "cannot tell: too few rows; record longer motions of all joints"
     if diagnosis.refinements:

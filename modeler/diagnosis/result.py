@@ -522,8 +522,9 @@ class Diagnosis(Result, Document):
 
     KEYS = """
         robot verdict effects refinements alternatives=alternative_effects
-        undetectable=undetectable_places joints=joint_results unmoved_joints held_out_logs sentences
-        band fit_band data_warnings has_changed has_contradictions machine_changed discoveries
+        undetectable=undetectable_places joints=joint_results unmoved_joints unjudged_joints
+        held_out_logs sentences band fit_band data_warnings has_changed has_contradictions
+        machine_changed discoveries
     """
 
     robot: str
@@ -564,6 +565,12 @@ class Diagnosis(Result, Document):
     def band(self) -> float:
         """Returns the band of the residuals, Hz; values are those of this band too."""
         return self.search.start.data.observation.report.processing.parallel_cutoff
+
+    @property
+    def unjudged_joints(self) -> tuple[str, ...]:
+        """Returns joints whose motion a fit to the logs does not predict, whatever is added."""
+        most = THRESHOLDS.max_predictive_error
+        return tuple(name for name, joint in self.joints.items() if joint.error_after > most)
 
     @property
     def addable_findings(self) -> tuple[Finding, ...]:

@@ -135,7 +135,7 @@ def score_change(
     the squares, a few blocks of fast motion would be all that counts): blocks are paired, and
     residuals are coloured within them but not beyond, so the standard error of sum_b d_b is
     `sqrt(B / (B - 1) sum_b (d_b - mean)^2)`. The whole is the weighted mean of the squares over
-    joints, in every block as in all.
+    joints, in every block as in all. A joint that neither model predicts judges none.
 
     Args:
         before: residuals of the model without the change.
@@ -146,7 +146,9 @@ def score_change(
     by_block = _build_block_function(before, block)
     old, new = compute_errors(before), compute_errors(after)
     known = [(j, name) for j, name in enumerate(before.names) if name in old and name in new]
-    shares = {name: (by_block(before, j), by_block(after, j)) for j, name in known}
+    most = THRESHOLDS.max_predictive_error
+    predicted = [pair for pair in known if min(old[pair[1]], new[pair[1]]) <= most] or known
+    shares = {name: (by_block(before, j), by_block(after, j)) for j, name in predicted}
     changes = tuple(
         ErrorChange(name, old[name], new[name], compute_t_ratio(np.sqrt(a) - np.sqrt(b)))
         for name, (a, b) in shares.items()

@@ -230,7 +230,7 @@ class HalvesComparison:
             f"{self.factors.max():.2g} ({names[int(self.factors.argmax())]}); run `modeler "
             "diagnose`"
         )
-        return [DataWarning(line, joints=(joints[joint],))]
+        return [DataWarning(line, False, True, joints=(joints[joint],), code="different_halves")]
 
 
 def compare_halves(

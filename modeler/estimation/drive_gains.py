@@ -442,7 +442,7 @@ def check_known_quantities(
                         "by the weight of the load, the drive gains are not those of the robot "
                         f"file: {'; '.join(doubtful)}; check them, or use --method tls"
                     )
-    return [DataWarning(line, affects_values=True) for line in lines]
+    return [DataWarning(line, affects_values=True, code="known_quantity") for line in lines]
 
 
 def _check_weights(observation: Observation, loaded: LoadedEquations, currents: bool) -> list[str]:

@@ -301,7 +301,8 @@ def _propose_torque_faults(seen: Evidence) -> Iterator[Hypothesis]:
                 f"times what it should be{unit}; check unit and drive gain of that channel"
             )
             j, factor = seen.joints[place], THRESHOLDS.unit_factor
-            fault = DataWarning(line, not 1.0 / factor < gain < factor, joint=j)
+            certain = not 1.0 / factor < gain < factor
+            fault = DataWarning(line, certain, joint=j, code="torque_scale")
             yield Hypothesis(fault, seen.data.scale_torques(place, gain), (j,))
     yield from _propose_sign_faults(seen)
     for a, b in combinations(every, 2) if seen.has_large_errors else ():
@@ -314,7 +315,7 @@ def _propose_torque_faults(seen: Evidence) -> Iterator[Hypothesis]:
                 "exchanged; check the order of the columns"
             )
             data = seen.build_equations(seen.rows.W, seen.rows.tau[:, order], both)
-            yield Hypothesis(DataWarning(line, True), data, (j, k))
+            yield Hypothesis(DataWarning(line, True, code="torque_exchange"), data, (j, k))
 
 
 def _estimate_gain(seen: Evidence, place: int) -> float:
@@ -365,7 +366,7 @@ def _propose_sign_faults(seen: Evidence) -> Iterator[Hypothesis]:
         line = f"{whose} the wrong sign for physically consistent parameters; check the sign"
         joints = tuple(seen.joints[k] for k in subset)
         data = seen.data.scale_torques(subset, -1.0)
-        yield Hypothesis(DataWarning(line, True), data, joints)
+        yield Hypothesis(DataWarning(line, True, code="torque_sign"), data, joints)
 
 
 def _propose_gravity_faults(seen: Evidence) -> Iterator[Hypothesis]:
@@ -394,7 +395,7 @@ def _propose_gravity_faults(seen: Evidence) -> Iterator[Hypothesis]:
         return judge.solve(NormalEquations(gram, every.cross @ mixed))[0][p:]
 
     for g in gravity.propose_candidates(compute_score, improve, seen.has_large_errors):
-        fault = DataWarning(gravity.format_line(g), True)
+        fault = DataWarning(gravity.format_line(g), True, code="gravity")
         yield Hypothesis(fault, combine_axes(g), judge=judge)
 
 
@@ -409,7 +410,8 @@ def _propose_motion_faults(seen: Evidence, clocked: bool) -> Iterator[Hypothesis
     equations = map_parts(partial(_transform_rows, seen), tried)
     for transform, data in zip(tried, equations, strict=True):
         if data is not None:
-            yield Hypothesis(DataWarning(transform.line, True), data)
+            code = "positions" if transform.speed == 1.0 else "clock"
+            yield Hypothesis(DataWarning(transform.line, True, code=code), data)
     if seen.judge.beta is None:
         yield from _propose_delays(seen)
 
@@ -485,7 +487,8 @@ def _propose_delays(seen: Evidence) -> Iterator[Hypothesis]:
             f"{channel.other} {back}); check the clocks of the channels, and shift the column"
         )
         if abs(shift) > 0.5 * step:
-            yield Hypothesis(DataWarning(line), data, min_evidence=_require_evidence(shift))
+            late = DataWarning(line, code="delay")
+            yield Hypothesis(late, data, min_evidence=_require_evidence(shift))
         if channel.is_torque and shift < -0.5 * step:
             tau, data = search(channel.filter_columns)
             line = (
@@ -493,7 +496,8 @@ def _propose_delays(seen: Evidence) -> Iterator[Hypothesis]:
                 f"{-1e3 * tau:.0f} ms; log the unfiltered torque"
             )
             if tau < -0.5 * step:
-                yield Hypothesis(DataWarning(line), data, min_evidence=_require_evidence(tau))
+                late = DataWarning(line, code="torque_filter")
+                yield Hypothesis(late, data, min_evidence=_require_evidence(tau))
 
 
 def _require_evidence(shift: float) -> float:
@@ -585,7 +589,7 @@ def _find_undetectable(seen: Evidence) -> list[DataWarning]:
     parts = [f"{what} of joint {', '.join(hidden[what])}" for what in sorted(hidden)]
     parts += _bound_delays(seen, beta) if seen.is_tree and len(seen.joints) > 1 else []
     line = f"Not detectable in these logs: {'; '.join(parts)}"
-    return [DataWarning(line, is_undetectable=True)] if parts else []
+    return [DataWarning(line, is_undetectable=True, code="undetectable")] if parts else []
 
 
 def _simulate_faults(

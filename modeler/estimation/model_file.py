@@ -462,7 +462,7 @@ def build_fitted_spec(model: IdentifiedModel) -> FittedSpec:
     gains = tuple(joint.drive_gain for joint in joints if joint.drive_gain is not None)
     judged: tuple[bool | None, str, tuple[str, ...]] = (None, "", ())
     if verdict is not None:
-        judged = verdict.valid, verdict.line, verdict.warnings
+        judged = verdict.valid, verdict.line, tuple(verdict.lines)
     every = [(p.name, p.unit, p.value, p.sigma, p.essential) for p in fit.parameters]
     values = tuple(FittedParameter(*p) for p in every)
     gains = gains if len(gains) == len(joints) else ()

@@ -259,18 +259,47 @@ class JointFit(Document):
         return left, left / self.relative_error**2 if self.relative_error else 0.0
 
 
+State = Literal["good", "doubtful", "undetermined"]
+"""Of a joint: what is said of the prediction of its torque."""
+
+Use = Literal["parameters", "prediction", "nothing"]
+"""What a fit is valid for."""
+
+
 @dataclass(frozen=True)
 class JointVerdict(ShortRepr):
     """Holds what a fit is valid for on one joint.
 
     Attributes:
-        state: "good": nothing speaks against it; "doubtful": its torques or its values are to be
-            taken with care; "undetermined": it is not predicted, or its channels are wrong.
-        why: sentences; of what is good its fit error and its cross-validated error.
+        state: "good": predicts its torque; "doubtful": predicts it with a large error, or at rest
+            only; "undetermined": does not predict it, or its channels are wrong.
+        why: sentences: its errors or what stands against it, then all warnings on it.
+        cause: code of what makes it doubtful or undetermined; "" of its errors alone.
     """
 
-    state: Literal["good", "doubtful", "undetermined"]
+    state: State
     why: tuple[str, ...]
+    cause: str = ""
+
+    @property
+    def needs_motion(self) -> bool:
+        """Returns True if another motion would determine it."""
+        return self.cause in ("few_rows", "at_rest")
+
+
+@dataclass(frozen=True)
+class VerdictWarning(ShortRepr):
+    """Holds a sentence that speaks against a fit.
+
+    Attributes:
+        code: its kind: "clock", "lack_of_fit" ...
+        joint: that it is about; None: the whole robot.
+        text: where and what; after the last semicolon what to do.
+    """
+
+    code: str
+    joint: str | None
+    text: str
 
 
 @dataclass(frozen=True)
@@ -278,11 +307,11 @@ class Verdict(ShortRepr):
     """Holds what a fit is valid for.
 
     Attributes:
-        valid: True if it predicts the torques of motion like that of its logs.
+        valid: True if it predicts the torques of motion like that of its logs, on some joint.
         valid_for: "parameters" (its values are those of a machine: simulation, control, other
             motion), "prediction" (torques of motion like that of its logs), "nothing".
-        line: for people: valid or not, why, what to do.
-        warnings: all that speaks against it.
+        line: for people: for what, on which joints, why, what to do.
+        warnings: all that speaks against it; one on several joints is there for each.
         undetectable_faults: faults that these logs would not show, in words.
         by_joint: the same joint by joint; empty in files that lack it.
         physically_consistent: whether the values are physically consistent; None where the logs are
@@ -290,17 +319,28 @@ class Verdict(ShortRepr):
     """
 
     valid: bool
-    valid_for: Literal["parameters", "prediction", "nothing"]
+    valid_for: Use
     line: str
-    warnings: tuple[str, ...]
+    warnings: tuple[VerdictWarning, ...]
     undetectable_faults: tuple[str, ...] = ()
     by_joint: Mapping[str, JointVerdict] = field(default_factory=dict)
     physically_consistent: bool | None = None
 
+    @property
+    def lines(self) -> list[str]:
+        """Returns the sentences of all warnings."""
+        return list(dict.fromkeys(warning.text for warning in self.warnings))
+
+    @property
+    def is_valid_everywhere(self) -> bool:
+        """Returns True if it predicts every joint that has a motor, and not at rest only."""
+        left_out = (one.cause not in ("", "no_motor") for one in self.by_joint.values())
+        return self.valid and not any(left_out)
+
     def format_warning(self) -> list[str]:
-        """Returns a line for whoever uses a model that is not valid; none for one that is."""
+        """Returns a line for whoever uses a model that is not valid on every joint; else none."""
         line = self.line[:1].lower() + self.line[1:]
-        return [] if self.valid else [f"the fit of this model is {line}"]
+        return [] if self.is_valid_everywhere else [f"the fit of this model is {line}"]
 
 
 @dataclass(frozen=True)
@@ -422,7 +462,7 @@ class FitResult(Result, Document):
         return "torque" if self.energy is None else "energy"
 
     @property
-    def warnings(self) -> tuple[str, ...]:
+    def warnings(self) -> tuple[VerdictWarning, ...]:
         """Returns all that speaks against the fit."""
         return () if self.verdict is None else self.verdict.warnings
 
@@ -471,7 +511,8 @@ class FitResult(Result, Document):
         lines += [*format_bodies(self.standard), *self.sentences]
         lines += self.energy.format_lines() if self.energy is not None else []
         if self.verdict is not None:
-            others = (line for line in self.verdict.warnings if line not in self.verdict.line)
+            said = (self.verdict.line, *self.sentences)
+            others = (x for x in self.verdict.lines if not any(x in line for line in said))
             lines += [*(f"warning: {line}" for line in others), *self.verdict.undetectable_faults]
             lines.append(self.verdict.line)
         return lines
@@ -524,9 +565,12 @@ def combine_errors(joints: Sequence[JointFit]) -> float:
     return float(np.sqrt(left / total)) if total else float("nan")
 
 
+_JUDGED = ("state", "why", "cause")
+
+
 def _add_names(joints: Mapping[str, Any]) -> list[dict[str, Any]]:
     return [
-        {"name": name} | {key: value for key, value in joint.items() if key not in ("state", "why")}
+        {"name": name} | {key: value for key, value in joint.items() if key not in _JUDGED}
         for name, joint in joints.items()
     ]
 
@@ -536,8 +580,8 @@ def _read_verdict(raw: Mapping[str, Any]) -> Verdict | None:
     if raw.get("valid") is None:
         return None
     joints = {name: joint for name, joint in raw["joints"].items() if "state" in joint}
-    judged = {name: {key: joint[key] for key in ("state", "why")} for name, joint in joints.items()}
-    values = {"warnings": [], **raw, "line": raw["verdict"], "by_joint": judged}
+    judged = {name: {key: joint[key] for key in _JUDGED} for name, joint in joints.items()}
+    values = {**raw, "line": raw["verdict"], "by_joint": judged}
     return read_back(Verdict, values, "its verdict")
 
 

@@ -418,7 +418,7 @@ class TwoStepFit:
             "other motion; record more motion of it alone, or use --method weighted"
         )
         certain = worst > THRESHOLDS.half_variance_error
-        return [DataWarning(line, is_certain=certain, affects_values=True)]
+        return [DataWarning(line, is_certain=certain, affects_values=True, code="no_single_motion")]
 
     def _format_line(self, c: Configuration) -> str:
         names = self.steps.directions.names

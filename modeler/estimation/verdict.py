@@ -7,7 +7,7 @@ import numpy as np
 from scipy.special import chdtri
 
 from modeler.core.manifest import ModuleSpec
-from modeler.core.table import format_percent
+from modeler.core.table import format_joints, format_percent
 from modeler.estimation import physical_consistency
 from modeler.estimation.covariance import estimate_autocorrelation
 from modeler.estimation.identify import (
@@ -25,21 +25,40 @@ from modeler.estimation.result import (
     FitResult,
     JointFit,
     JointVerdict,
+    State,
+    Use,
     Verdict,
+    VerdictWarning,
     compute_friction_by_direction,
 )
 from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics import least_squares
 from modeler.regression import (
+    MASKS,
+    REST_TRAVEL,
     THRESHOLDS as REGRESSION,
     DataWarning,
     Observation,
+    classify_rows,
+    compute_model_torque,
     find_nearest_closed,
 )
 from modeler.runtime import CompiledModel
 
-NOT_FITTED = "no row was fitted"
-"""Why a joint is not determined that has no motor, or no torque in its rows."""
+_CAUSES = {
+    "no_motor": ("it has no motor", ""),
+    "no_torque": ("no row was fitted", "; log its torque, or mark it passive (mu = 0)"),
+    "at_rest": ("at rest in these logs", "; record the motion of `modeler excite`"),
+    "lack_of_fit": (
+        f"fit error above {format_percent(THRESHOLDS.max_fit_error)}",
+        "; check units, signs and columns, and run `modeler diagnose`",
+    ),
+    "few_rows": (
+        f"cross-validated error above {format_percent(THRESHOLDS.max_cross_validated_error)}",
+        "; record the motion of `modeler excite`",
+    ),
+}
+"""Why a joint is doubtful or undetermined, in a few words, and what to do."""
 
 _EARTH = 9.81  # m/s^2
 _TIME_UNITS = {"milliseconds": 1e-3, "microseconds": 1e-6, "nanoseconds": 1e-9}
@@ -67,6 +86,7 @@ def find_negative_values(spec: ModuleSpec, result: FitResult) -> list[DataWarnin
             "allow; check signs, units and order of the columns, and run `modeler diagnose`",
             affects_values=True,
             joints=find_joints_of_parameters(spec, [base.name]),
+            code="negative_value",
         )
         for base, estimate in zip(spec.base, result.parameters, strict=True)
         if estimate.sigma is not None
@@ -92,6 +112,7 @@ def find_lack_of_fit(result: FitResult) -> list[DataWarning]:
             is_certain=joint.relative_error > THRESHOLDS.half_variance_error,
             affects_values=True,
             joints=(joint.name,),
+            code="lack_of_fit",
         )
         for joint in _list_moving_joints(result)
         if joint.relative_error is not None and joint.relative_error > THRESHOLDS.max_fit_error
@@ -109,7 +130,7 @@ def check_motion_noise(observation: Observation) -> list[DataWarning]:
         "of the measured one: values may be biased towards zero; run `modeler diagnose`, move "
         "farther and faster, or measure positions more finely"
     )
-    return [DataWarning(line, affects_values=True)]
+    return [DataWarning(line, affects_values=True, code="motion_noise")]
 
 
 def find_systematic_residuals(result: FitResult, systematic_share: np.ndarray) -> list[DataWarning]:
@@ -130,37 +151,32 @@ def find_systematic_residuals(result: FitResult, systematic_share: np.ndarray) -
     }
     if not large:
         return []
+    where, most = format_joints([*large]), format_percent(max(large.values()))
     line = (
-        f"joint {', '.join(large)}: up to {format_percent(max(large.values()))} of the torque is a "
-        "residual that is no noise: an effect is missing, and values absorb it; run `modeler "
-        "diagnose`"
+        f"{where}: up to {most} of the torque is a residual that is no noise: an effect is "
+        "missing, and values absorb it; run `modeler diagnose`"
     )
-    return [DataWarning(line, affects_values=True, joints=tuple(large))]
+    joints = tuple(large)
+    return [DataWarning(line, affects_values=True, joints=joints, code="systematic_residual")]
 
 
 def find_few_rows(result: FitResult, seen: CrossValidation) -> list[DataWarning]:
     """Returns a warning on joints whose held-out torques the fit does not predict."""
     errors = dict(zip((joint.name for joint in result.joints), seen.errors, strict=True))
     least, ratio = THRESHOLDS.max_fit_error, THRESHOLDS.max_error_ratio
-    most = {j.name: ratio * (j.relative_error or 0.0) for j in _list_moving_joints(result)}
-    lost = {name: errors[name] for name in most if errors[name] > max(least, most[name])}
-    lost = {name: error for name, error in lost.items() if np.isfinite(error)}
+    lost = {
+        joint.name: float(errors[joint.name])
+        for joint in _list_moving_joints(result)
+        if errors[joint.name] > max(least, ratio * (joint.relative_error or 0.0))
+    }
     if not lost:
         return []
-    error = max(lost.values())
-    missed = "all of the torque" if error >= 1.0 else f"up to {format_percent(error)} of the torque"
-    swings = f"swings of the motion ({seen.half_period:.2g} s each)"
     line = (
-        f"joint {', '.join(lost)}: not enough data for {len(result.parameters)} parameters, or "
-        "columns that do not belong together: "
-        + (
-            f"the logs hold less than two {swings}"
-            if seen.stretches < 2
-            else f"of {seen.stretches} {swings}, a fit to the others misses each by {missed}"
-        )
-        + "; record a longer motion of all joints, at many speeds and poses"
+        f"{format_joints([*lost])}: cross-validated error up to "
+        f"{format_percent(max(lost.values()))}: the motion is too short or too uniform, or "
+        "columns do not belong together; record a longer motion, at many speeds and poses"
     )
-    return [DataWarning(line, is_certain=True, joints=tuple(lost))]
+    return [DataWarning(line, joints=tuple(lost), code="few_rows")]
 
 
 def find_unexplained_joints(
@@ -183,6 +199,7 @@ def find_unexplained_joints(
             "fit pieces, FILE@START:END, to find them",
             is_certain=True,
             joints=(joint.name,),
+            code="unexplained_rows",
         )
         for joint, error, torque in zip(result.joints, seen.errors, scale, strict=True)
         if joint.relative_error is not None
@@ -214,7 +231,7 @@ def find_undetermined_parameters(
             f"these logs ({shorten([*dropped, *vague])}); record a longer motion of all joints, at "
             "many speeds and poses"
         )
-        return [DataWarning(line, is_certain=True)]
+        return [DataWarning(line, affects_values=True, code="undetermined_parameters")]
     causes = {
         "practically unidentifiable, the standard deviation exceeds the joint's rms torque; record "
         "poses and accelerations that the logs lack": vague,
@@ -226,6 +243,7 @@ def find_undetermined_parameters(
             f"{shorten(names)}: {cause}",
             affects_values=True,
             joints=find_joints_of_parameters(spec, names),
+            code="undetermined_parameters",
         )
         for cause, names in causes.items()
         if names
@@ -258,7 +276,7 @@ def check_time(
                 else "is the column time in seconds, or a count of rows? give seconds"
             )
             line = f"{log.name}: median time step {step:.3g} s, {why}: {advice}"
-            warnings.append(DataWarning(line, is_certain=is_slow, affects_values=not is_slow))
+            warnings.append(DataWarning(line, is_slow, not is_slow, code="time_step"))
     ratio, density = _compute_pendulum(model, observation, result)
     if not warnings and ratio > THRESHOLDS.max_pendulum_ratio:
         line = (
@@ -266,13 +284,13 @@ def check_time(
             f"this reach, as if all motion were {ratio**0.5:.2g} times as fast; check "
             "the time column, its unit and rate, and whether the lengths are in metres"
         )
-        warnings.append(DataWarning(line, is_certain=True))
+        warnings.append(DataWarning(line, is_certain=True, code="clock"))
     elif density > THRESHOLDS.max_density and result.status != "rank deficient":
         line = (
             f"the links would weigh {density:.2g} kg for every cubic metre within its reach: "
             "the torques look like mN m, or the lengths are not in metres; give N m and metres"
         )
-        warnings.append(DataWarning(line, is_certain=True))
+        warnings.append(DataWarning(line, is_certain=True, code="mass_density"))
     return warnings
 
 
@@ -319,17 +337,17 @@ def judge_fit(
 ) -> FitResult:
     """Returns the fit with its verdict.
 
-    A fit is valid for prediction of torques of motion like that of its logs if it describes every
-    joint, predicts segments that are left out, the time runs in seconds, and a machine that
-    could be built describes the joints as well. It is valid for its parameters if, beyond that,
-    no joint is doubtful, one such machine lies in their confidence region, the logs determine the
-    values, and what is left of the torques is small or noise.
+    A joint is good if the fit predicts segments that are left out, and samples at low speed, with
+    a small error, and in no fifth of the time with a large one; undetermined if it does not
+    predict them, or if its channels are certainly wrong. A fit is valid for its parameters if all
+    joints are good, a machine that could be built lies in the confidence region, the logs
+    determine the values, and what is left of the torques is small or noise.
 
     Args:
         model: the robot.
         observation: that was fitted.
         result: of the fit.
-        log_warnings: of other stages about the logs; a certain one makes the fit invalid.
+        log_warnings: of other stages about the logs; a certain one makes its joints undetermined.
         equations: that were fitted; None: those of the bare robot.
         refit: how the fit is made without some samples; None: by least squares of the torques.
         data: all rows that were fitted, where the observation has a part of them only.
@@ -352,20 +370,22 @@ def judge_fit(
         share = _estimate_systematic_share(equations, rows, result)
         warnings += find_systematic_residuals(result, share)
         for line in result.prior_conflicts:
-            joints = (j.name for j in result.joints if line.startswith(f"joint {j.name}: "))
-            warnings.append(DataWarning(line, affects_values=True, joints=tuple(joints)))
+            names = (j.name for j in result.joints if line.startswith(f"joint {j.name}: "))
+            warnings.append(DataWarning(line, False, True, joints=tuple(names), code="prior"))
         spread = _compute_spread(data, result)
         warnings += find_undetermined_parameters(model.spec, result, spread)
         impossible = _find_impossible(model.spec, result, data)
         possible = not impossible
         warnings += [*impossible, *find_negative_values(model.spec, result)]
-    block, blocks = observation.row_sample, THRESHOLDS.time_blocks
-    block = block * blocks // len(observation.time)
-    every = [compute_errors(equations, seen.residual, rows & (block == k)) for k in range(blocks)]
-    worst = np.nan_to_num(every).max(axis=0)
-    by_joint = _judge_joints([*warnings, *result.joint_warnings], result, seen, worst)
+        warnings += result.joint_warnings
+    sampled, worst = _compute_sample_errors(model, observation, result)
+    fifth = _number_fifths(observation)[observation.row_sample]
+    for k in range(THRESHOLDS.time_blocks):
+        worst = np.fmax(worst, compute_errors(equations, seen.residual, rows & (fifth == k)))
+    by_joint = _judge_joints(warnings, observation, result, (seen.errors, sampled, worst))
+    text = _describe_prediction(equations, rows, result, seen, _list_predicted_joints(by_joint))
     verdict = dataclasses.replace(
-        _write_verdict(warnings, by_joint, _describe_prediction(equations, rows, result, seen)),
+        _write_verdict(warnings, by_joint, text),
         undetectable_faults=tuple(
             warning.line for warning in log_warnings if warning.is_undetectable
         ),
@@ -375,44 +395,108 @@ def judge_fit(
     return dataclasses.replace(result, verdict=verdict, directions=directions)
 
 
-def _judge_joints(
-    warnings: Sequence[DataWarning], result: FitResult, seen: CrossValidation, worst: np.ndarray
-) -> dict[str, JointVerdict]:
-    """Returns what speaks against each joint: what concerns it, the whole robot, and its errors.
+def _number_fifths(observation: Observation) -> np.ndarray:
+    """Returns (s,) the number of the block of time of each sample."""
+    count = len(observation.time)
+    return np.arange(count) * THRESHOLDS.time_blocks // count
 
-    A warning on no joint that leaves prediction and values as they are speaks against none.
+
+def _compute_sample_errors(
+    model: CompiledModel, observation: Observation, result: FitResult
+) -> tuple[np.ndarray, np.ndarray]:
+    """Returns (n,) errors on all undamaged samples, and on those of the worst block of time.
+
+    Rows are means of all samples, not of those that count: friction near standstill is what other
+    motion meets, and no row of the fit. 0 with loads, which the model is without.
+    """
+    nothing, fifth = np.zeros(len(result.joints)), _number_fifths(observation)
+    if result.by_load:
+        return nothing, nothing
+    counted = observation.used | (classify_rows(observation) == MASKS.index("low speed"))
+    whole = observation.select_rows(np.zeros_like(observation.used))
+    torque = np.concatenate([part.filter_torque() for part in whole.stretches])
+    left = torque - compute_model_torque(whole, model, result.beta)
+
+    def compute_error(rows: np.ndarray) -> np.ndarray:
+        residual, total = (np.sum(x**2, axis=0, where=rows) for x in (left, torque))
+        return np.sqrt(np.divide(residual, total, out=nothing.copy(), where=total > 0.0))
+
+    blocks = (counted & (fifth == k)[:, None] for k in range(THRESHOLDS.time_blocks))
+    return compute_error(counted), np.max([compute_error(rows) for rows in blocks], axis=0)
+
+
+def _is_fault(warning: DataWarning) -> bool:
+    """Returns True of what makes a prediction wrong, and not values alone."""
+    return warning.is_certain and not warning.affects_values
+
+
+def _judge_joints(
+    warnings: Sequence[DataWarning],
+    observation: Observation,
+    result: FitResult,
+    errors: tuple[np.ndarray, np.ndarray, np.ndarray],
+) -> dict[str, JointVerdict]:
+    """Returns the state of each joint by its errors; faults of it and of the robot go before.
+
+    Args:
+        warnings: of all joints.
+        observation: that was fitted.
+        result: of the fit.
+        errors: (n,) cross-validated, on all samples, and the largest of a block of time.
     """
     names, verdicts = {joint.name for joint in result.joints}, {}
-    grave = [w for w in warnings if w.is_certain or w.affects_values]
-    general = {id(w) for w in grave if not names & set(w.joints)}
-    for joint, error, block_error in zip(result.joints, seen.errors, worst, strict=True):
-        joint_warnings = [w for w in warnings if joint.name in w.joints or id(w) in general]
-        lines = tuple(dict.fromkeys(warning.line for warning in joint_warnings))
-        errors = f"fit error {format_percent(joint.relative_error)}"
-        if np.isfinite(error):
-            errors += f", cross-validated error {format_percent(float(error))}"
-        is_bad = any(warning.is_certain for warning in joint_warnings)
-        is_bad |= bool(error > THRESHOLDS.max_cross_validated_error)
-        is_doubtful = error > THRESHOLDS.good_error or block_error > THRESHOLDS.max_block_error
-        if joint.relative_error is None:
-            verdicts[joint.name] = JointVerdict("undetermined", (NOT_FITTED, *lines))
-        elif is_bad:
-            verdicts[joint.name] = JointVerdict("undetermined", lines or (errors,))
-        elif joint_warnings or is_doubtful:
-            verdicts[joint.name] = JointVerdict("doubtful", lines or (errors,))
-        else:
-            verdicts[joint.name] = JointVerdict("good", (errors,))
+    general = [w for w in warnings if _is_fault(w) and not names & set(w.joints)]
+    travel = np.ptp(observation.q, axis=0)
+    for j, (joint, spec) in enumerate(zip(result.joints, observation.joints, strict=True)):
+        about = [w for w in warnings if joint.name in w.joints]
+        faults = [w for w in (*general, *about) if _is_fault(w)]
+        error, sampled, worst = (float(x[j]) for x in errors)
+        fit_error, rests = joint.relative_error, travel[j] < REST_TRAVEL[spec.unit]
+        state, cause = _classify_errors(error, sampled, worst), ""
+        if not spec.actuated:
+            state, cause = "undetermined", "no_motor"
+        elif faults:
+            state, cause = "undetermined", faults[0].code
+        elif fit_error is None:
+            state, cause = "undetermined", "at_rest" if rests else "no_torque"
+        elif state == "undetermined":
+            cause = "lack_of_fit" if fit_error > THRESHOLDS.max_fit_error else "few_rows"
+        elif rests:
+            state, cause = "doubtful", "at_rest"
+        parts = [f"fit error {format_percent(fit_error)}"]
+        parts += [f"cross-validated error {format_percent(error)}"] * bool(np.isfinite(error))
+        if sampled > THRESHOLDS.max_sample_error:
+            parts.append(f"error with low speeds {format_percent(sampled)}")
+        if worst > THRESHOLDS.max_block_error:
+            parts.append(f"in a fifth of the time {format_percent(worst)}")
+        first = faults[0].line if faults else _CAUSES.get(cause, (", ".join(parts),))[0]
+        first = ", ".join(parts) if cause in ("lack_of_fit", "few_rows") else first
+        lines = dict.fromkeys([first, *(warning.line for warning in about)])
+        verdicts[joint.name] = JointVerdict(state, tuple(lines), cause)
     return verdicts
 
 
+def _classify_errors(error: float, sampled: float, worst: float) -> State:
+    """Returns the state of a joint with these errors; see `_judge_joints`."""
+    if error > THRESHOLDS.max_cross_validated_error:
+        return "undetermined"
+    is_small = error <= THRESHOLDS.good_error and sampled <= THRESHOLDS.max_sample_error
+    return "good" if is_small and worst <= THRESHOLDS.max_block_error else "doubtful"
+
+
 def _describe_prediction(
-    equations: Equations, rows: np.ndarray, result: FitResult, seen: CrossValidation
+    equations: Equations,
+    rows: np.ndarray,
+    result: FitResult,
+    seen: CrossValidation,
+    names: Sequence[str],
 ) -> str:
-    """Returns how well torques are predicted; no better than where they were fitted."""
+    """Returns how well torques of some joints are predicted; no better than they are fitted."""
 
     def find_largest(errors: np.ndarray, joints: Sequence[JointFit]) -> str:
-        fitted = [joint.relative_error or 0.0 for joint in joints]
-        return format_percent(float(np.fmax(np.nan_to_num(errors), np.nan_to_num(fitted)).max()))
+        pairs = zip(np.nan_to_num(errors), joints, strict=True)
+        both = [max(float(e), j.relative_error or 0.0) for e, j in pairs if j.name in names]
+        return format_percent(max(both, default=0.0))
 
     parts = [
         f"{find_largest(compute_errors(equations, seen.residual, part), joints)} {name}"
@@ -532,7 +616,8 @@ def _find_impossible(
     line += "; check signs, order and units of those channels, and run `modeler diagnose`"
     largest = max(THRESHOLDS.max_fit_error, THRESHOLDS.max_error_ratio * fit_error)
     joints = [j for name in blamed for j in find_joints_of_parameters(spec, [name]) or (name,)]
-    return [DataWarning(line, error > largest, affects_values=True, joints=tuple(joints))]
+    is_certain, code = error > largest, "physical_consistency"
+    return [DataWarning(line, is_certain, True, joints=tuple(joints), code=code)]
 
 
 def _estimate_sigma_factors(white: np.ndarray, result: FitResult) -> np.ndarray:
@@ -554,21 +639,50 @@ def _estimate_sigma_factors(white: np.ndarray, result: FitResult) -> np.ndarray:
 def _write_verdict(
     warnings: Sequence[DataWarning], by_joint: Mapping[str, JointVerdict], error: str
 ) -> Verdict:
-    lines = tuple(dict.fromkeys(warning.line for warning in warnings))
-    fatal = [warning.line for warning in warnings if warning.is_certain]
+    """Returns for what a fit is valid, and on which joints; `error` says how well it predicts."""
+    entries = [
+        VerdictWarning(warning.code, name, warning.line)
+        for warning in warnings
+        for name in (*(n for n in warning.joints if n in by_joint),) or (None,)
+    ]
+    lines = list(dict.fromkeys(warning.line for warning in warnings))
+    fatal = [w.line for w in warnings if _is_fault(w) and not by_joint.keys() & set(w.joints)]
+    valid = [name for name, one in by_joint.items() if one.state != "undetermined"]
+    left_out = _describe_left_joints(by_joint)
     reasons = [warning.line for warning in warnings if warning.affects_values]
-    for name, verdict in by_joint.items():
-        why = verdict.why[0]
-        if verdict.state != "good" and why != NOT_FITTED:  # which blocks no other joint
-            reasons.append(why if why.startswith("joint") else f"joint {name}, {why}")
-    if fatal:
-        return Verdict(False, "nothing", f"Not valid: {fatal[0]}", lines, (), by_joint)
-    if reasons:
+    doubtful = [name for name, one in by_joint.items() if one.state == "doubtful"]
+    reasons += [f"joint {name}, {by_joint[name].why[0]}" for name in doubtful]
+    use: Use = "prediction"
+    if fatal or not valid:
+        causes = {one.cause for one in by_joint.values()}
+        explained = [w.line for w in warnings if w.is_certain or w.code in causes]
+        use, line = "nothing", f"Not valid: {[*fatal, *explained, *left_out][0]}"
+    elif left_out:
+        where = format_joints(_list_predicted_joints(by_joint))
+        parts = "; ".join([f"Valid for prediction on {where}", *left_out])
+        line = f"{parts}. {error[:1].upper()}{error[1:]} on {where}."
+    elif reasons:
         line = (
             f"Valid for torque prediction on similar motions only: {error} on every joint. "
             f"Individual parameters are not reliable: {reasons[0]}"
         )
-        return Verdict(True, "prediction", line, lines, (), by_joint)
-    line = f"Valid for torque prediction: {error} on every joint. "
-    line += f"Note: {lines[0]}" if lines else "Parameters are physically consistent."
-    return Verdict(True, "parameters", line, lines, (), by_joint)
+    else:
+        use, line = "parameters", f"Valid for torque prediction: {error} on every joint. "
+        line += f"Note: {lines[0]}" if lines else "Parameters are physically consistent."
+    return Verdict(use != "nothing", use, line, tuple(entries), (), by_joint)
+
+
+def _list_predicted_joints(by_joint: Mapping[str, JointVerdict]) -> list[str]:
+    """Returns the joints that are predicted; those at rest only where nothing moves."""
+    valid = [name for name, one in by_joint.items() if one.state != "undetermined"]
+    return [name for name in valid if by_joint[name].cause != "at_rest"] or valid
+
+
+def _describe_left_joints(by_joint: Mapping[str, JointVerdict]) -> list[str]:
+    """Returns which joints are not predicted, why, and what to do; those of one cause together."""
+    groups: dict[str, list[str]] = {}
+    for name, one in by_joint.items():
+        if one.cause not in ("", "no_motor"):
+            why, remedy = _CAUSES.get(one.cause, (one.why[0].removeprefix(f"joint {name}: "), ""))
+            groups.setdefault(f"{one.state}: {why}{remedy}", []).append(name)
+    return [f"{format_joints(names)} {text}" for text, names in groups.items()]

@@ -85,6 +85,7 @@ from .report import (
     LogReport as LogReport,
 )
 from .segments import (
+    REST_TRAVEL as REST_TRAVEL,
     FilteredSegment as FilteredSegment,
     apply_lag as apply_lag,
     compute_bristle_state as compute_bristle_state,

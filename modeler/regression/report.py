@@ -37,6 +37,7 @@ class DataWarning(ShortRepr):
         joint: index of the joint whose torque has another scale; -1 for other warnings.
         is_undetectable: True if it says which faults these logs would not show.
         joints: names of the joints that it is about; empty: the whole robot.
+        code: its kind, for scripts: "clock", "torque_sign" ...; "data": of rows and channels.
     """
 
     line: str
@@ -45,6 +46,7 @@ class DataWarning(ShortRepr):
     joint: int = -1
     is_undetectable: bool = False
     joints: tuple[str, ...] = ()
+    code: str = "data"
 
 
 @dataclass(frozen=True)

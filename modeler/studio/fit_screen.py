@@ -177,7 +177,8 @@ def _draw_verdict(fit: Mapping[str, Any]) -> None:
         ui.label("Physical consistency").classes("studio-part")
         elements.draw_light(*_BUILT[fit.get("physically_consistent")])
         reasons = {reason for joint in by_joint.values() for reason in joint["why"]}
-        elements.draw_warnings(line for line in fit["warnings"] if line not in reasons)
+        lines = dict.fromkeys(warning["text"] for warning in fit["warnings"])
+        elements.draw_warnings(line for line in lines if line not in reasons)
         elements.draw_folded("Notes", [*fit["sentences"], *fit.get("undetectable_faults", ())])
 
 

@@ -346,7 +346,7 @@ def _build_verdict_blocks(fit: FitResult) -> list[page.Verdict | page.Items]:
         lines = [page.JudgedLine(kind, tag, "This fit", fit.verdict.line)]
         lines += [
             page.JudgedLine("other", "doubt", f"Warning {k}", text)
-            for k, text in enumerate(fit.verdict.warnings, start=1)
+            for k, text in enumerate(fit.verdict.lines, start=1)
         ]
         blocks.append(page.Verdict(lines))
     if fit.sentences:

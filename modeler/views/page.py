@@ -469,14 +469,23 @@ def suggest_after_fit(
     """
     judge = f"modeler compare {_quote_words([model, *logs])} --report compare.html"
     look = f"modeler diagnose {_quote_words([model, *logs])} --report diagnosis.html"
-    verdict = fit.verdict
-    if verdict is not None and not verdict.valid:
-        words = "".join(f" --map {_quote_words([word])}" for word in mapped)
-        return [
-            f"modeler log {_quote_words(logs[:1])} --robot {_quote_words([robot])}{words}",
-            look,
-        ]
-    return [look, judge] if _is_effect_missing(fit) else [judge, look]
+    following = [look, judge] if _is_effect_missing(fit) else [judge, look]
+    if fit.verdict is None or fit.verdict.is_valid_everywhere:
+        return following
+    joints = fit.verdict.by_joint.values()
+    if any(joint.needs_motion for joint in joints):
+        return [_suggest_motion(model, logs), *following]
+    if fit.verdict.valid and all(joint.cause in ("", "lack_of_fit") for joint in joints):
+        return following
+    words = "".join(f" --map {_quote_words([word])}" for word in mapped)
+    return [f"modeler log {_quote_words(logs[:1])} --robot {_quote_words([robot])}{words}", look]
+
+
+def _suggest_motion(model: str, logs: Sequence[str]) -> str:
+    """Suggests to record what the logs lack."""
+    beside = "".join(f" --from {_quote_words([log])}" for log in logs)
+    motion = f"{Path(model).name.partition('.')[0]}-motion.csv"
+    return f"modeler excite {_quote_words([model])}{beside} --out {_quote_words([motion])}"
 
 
 def _is_effect_missing(fit: "FitResult") -> bool:
@@ -524,6 +533,8 @@ def suggest_after_diagnosis(
 ) -> list[str]:
     """Suggests to add the effects that have columns; else to compare or to generate."""
     named = diagnosis.addable_findings
+    if not named and diagnosis.unjudged_joints and not diagnosis.machine_changed:
+        return [_suggest_motion(model, logs)]
     if not named and diagnosis.verdict == "nothing significant":
         return [_suggest_generate(model)]
     if not named:

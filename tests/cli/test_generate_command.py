@@ -12,7 +12,7 @@ import pytest
 from modeler.api import compile, generate, load
 from modeler.estimation.model_file import Addition, build_fitted_spec, load_model, save_model
 from modeler.estimation.parameters import ParameterEstimate
-from modeler.estimation.result import Verdict
+from modeler.estimation.result import Verdict, VerdictWarning
 from tests.cli.running import answer, complaint, run
 from tests.codegen.fitted_library import Functions
 
@@ -89,7 +89,8 @@ def test_the_c_predicts_what_the_model_does(place, fitted, capsys, tmp_path):
 
 def test_a_model_that_is_not_usable_is_written_and_told(fitted, capsys, tmp_path):
     doubts = ("joint 2 is not described", "joint 1 is */ strange")
-    verdict = Verdict(False, "nothing", "Not valid: joint 2 is not described", doubts)
+    entries = tuple(VerdictWarning("data", None, doubt) for doubt in doubts)
+    verdict = Verdict(False, "nothing", "Not valid: joint 2 is not described", entries)
     err = {}
     for name, judged in (("bad", verdict), ("unjudged", None)):
         save_model(tmp_path / "m.json", changed(fitted, verdict=judged))

@@ -45,7 +45,7 @@ def test_with_link_data_a_counterbalance_is_named(seed):
     assert (result.effects[0].effect, result.effects[0].joint) == ("counterbalance", "2")
     assert result.effects[0].error_after < 0.2 * result.effects[0].error_before
     assert not any(LINE in line for line in result.sentences)
-    assert any("link 2: the data contradict" in line for line in model.fit.verdict.warnings)
+    assert any("link 2: the data contradict" in line for line in model.fit.verdict.lines)
     compiled = load_module(model.spec, model.sources)
     read = LogSplit(*(read_logs(compiled, some) for some in logs))
     named, _ = add_findings(model, compiled, result.effects, read)

@@ -199,7 +199,8 @@ def test_every_command_says_the_same(arm, capsys, mistake):
     ):
         assert main(words.split()) == 0
         assert SAID[mistake] in capsys.readouterr().out, words
-        assert any(SAID[mistake] in line for line in json.loads(result.read_text())["warnings"])
+        warnings = json.loads(result.read_text())["warnings"]
+        assert any(SAID[mistake] in one["text"] for one in warnings)
 
 
 def test_a_log_beside_a_model_of_another_is_judged_by_its_values():

@@ -74,15 +74,18 @@ def test_inertias_tell_the_unit_of_time_where_the_steps_do_not(log):
 def test_a_torque_with_the_wrong_sign(log):
     tau = log.tau.copy()
     tau[:, 1] *= -1.0
-    verdict = verdict_of(dataclasses.replace(log, tau=tau))
-    assert not verdict.valid
-    assert verdict.line.startswith("Not valid: not physically consistent: distance ")
-    assert "2" in verdict.line.split("mainly from")[1]
-    assert "% on joint 2, not " in verdict.line
-    assert any("is negative, which physics does not allow" in line for line in verdict.warnings)
+    spoilt = dataclasses.replace(log, tau=tau)
+    verdict = verdict_of(spoilt)
+    assert verdict.valid_for == "prediction"  # its torque is predicted as it is logged
+    line = next(line for line in verdict.lines if line.startswith("not physically consistent: "))
+    assert "2" in line.split("mainly from")[1]
+    assert "% on joint 2, not " in line and line in verdict.by_joint["2"].why
+    assert any("is negative, which physics does not allow" in line for line in verdict.lines)
     assert verdict.physically_consistent is False
-    item = verdict.by_joint["2"]
-    assert item.state == "undetermined" and verdict.line[11:] in item.why
+    verdict = with_findings(spoilt).verdict
+    assert verdict.line.startswith("Valid for prediction on joints 1, 3; joint 2 undetermined: ")
+    assert "wrong sign" in verdict.line and verdict.by_joint["2"].cause == "torque_sign"
+    assert verdict.format_warning() == [f"the fit of this model is v{verdict.line[1:]}"]
 
 
 DEFECTS = {
@@ -96,7 +99,7 @@ DEFECTS = {
         lambda log: dataclasses.replace(log, tau=np.roll(log.tau, 800, axis=0)), "nothing",
         "is not described, even on the data of the fit; check units, signs"),
     "too few rows": (lambda log: cut_rows(log, slice(1000, 1800)), "nothing",
-                     "not enough data for 25 parameters", "record a longer motion of all joints"),
+                     "cross-validated error up to ", "record a longer motion, at many speeds"),
     "torque twice as large":
         (lambda log: dataclasses.replace(log, tau=log.tau * [1.0, 1.0, 2.0]), ""),
     "gear ratio": (lambda log: dataclasses.replace(log, q=log.q * [1.0, 1.0, 2.0]), ""),
@@ -111,8 +114,9 @@ def test_a_model_of_a_spoilt_log_is_not_valid_for_its_parameters(log, defect):
     change, valid_for, *words = DEFECTS[defect]
     verdict = verdict_of(change(log))
     assert verdict.valid_for == valid_for or (not valid_for and verdict.valid_for != "parameters")
-    assert {one.state for one in verdict.by_joint.values()} != {"good"}
-    said = verdict.line if valid_for else "\n".join(verdict.warnings)
+    states = {one.state for one in verdict.by_joint.values()}
+    assert ("good" in states) is (verdict.valid_for == "prediction")
+    said = verdict.line if valid_for else "\n".join(verdict.lines)
     assert all(word in said for word in words), said
 
 
@@ -126,9 +130,11 @@ def test_a_joint_that_stands_still_leaves_the_prediction(log):
         assert one.value == 0.0 and one.sigma is None and not one.essential
         assert any(line.startswith(one.name) and "set aside" in line for line in fit.format_lines())
     assert verdict.valid_for != "parameters"
-    assert any("record a motion that moves all joints" in line for line in verdict.warnings)
-    assert verdict.by_joint["1"].state == "undetermined"
-    assert "no row was fitted" in verdict.by_joint["1"].why
+    assert any("record a motion that moves all joints" in line for line in verdict.lines)
+    assert verdict.by_joint["1"].state == "undetermined" and verdict.by_joint["1"].needs_motion
+    assert verdict.line.startswith(
+        "Valid for prediction on joints 2, 3; joint 1 undetermined: at rest in these logs; record "
+    )
 
 
 def test_values_that_stand_in_for_what_the_model_lacks(log):
@@ -140,28 +146,25 @@ def test_values_that_stand_in_for_what_the_model_lacks(log):
     verdict = judge_fit(model, observation, identify(observation)).verdict
     assert verdict.valid and verdict.valid_for == "prediction"
     stands_in = "an effect is missing, and values absorb it; run `modeler diagnose`"
-    assert any(stands_in in line for line in verdict.warnings)
-    about = next(line for line in verdict.warnings if stands_in in line).split(":")[0]
-    named = about.removeprefix("joint ").split(", ")
-    assert all(verdict.by_joint[name].state == "doubtful" for name in named)
+    named = [one.joint for one in verdict.warnings if one.code == "systematic_residual"]
+    assert named and all(stands_in in verdict.by_joint[name].why[1] for name in named)
 
 
 @pytest.mark.rotating("long tests of fit")
-def test_a_joint_whose_halves_differ_is_doubtful_and_no_other():
+def test_values_of_a_joint_whose_halves_differ_are_doubtful_and_of_no_other():
     # friction that grows with the load, which the model lacks, on joint 3 alone
     hidden = (HiddenEffect("load_friction", "3"),)
     settings = SimulationSettings(duration=16.0, rate=500.0, seed=9, hidden=hidden)
     verdict = verdict_of(log_of(settings))
-    assert verdict.by_joint["1"].state == "good"
-    assert verdict.by_joint["3"].state == "doubtful"
-    assert "`modeler diagnose`" in verdict.by_joint["3"].why[0]
+    (why,), (_, *about) = (verdict.by_joint[name].why for name in "13")
+    assert why.startswith("fit error ") and any("`modeler diagnose`" in line for line in about)
     assert verdict.valid_for == "prediction" and "joint 3" in verdict.line
 
 
 def test_what_other_stages_tell_joins_in(log):
     swapped = DataWarning("joint 1 and 2: exchanged; exchange tau1 and tau2", True)
     verdict = verdict_of(log, told=[swapped])
-    assert verdict.line == f"Not valid: {swapped.line}" and verdict.warnings == (swapped.line,)
+    assert verdict.line == f"Not valid: {swapped.line}" and verdict.lines == [swapped.line]
     states = {one.state for one in verdict.by_joint.values()}
     assert states == {"undetermined"}  # it is about all of them
     local = dataclasses.replace(swapped, joints=("1", "2"))
@@ -201,16 +204,19 @@ def test_every_command_that_takes_the_model_says_so(log, tmp_path, capsys):
     np.savetxt(tmp_path / "log.csv", table, "%.9g", ",", header=head, comments="")
     log, model, out = (str(tmp_path / name) for name in ("log.csv", "m.json", "out.json"))
     lines = printed(capsys, f"fit demo-arm {log} --out {model} --json {out}")
-    assert sum(line.startswith("Not valid: ") for line in lines) == 1
+    partly = "alid for prediction on joints 1, 3; joint 2 undetermined: the measured torque "
+    assert sum(line.startswith(f"V{partly}") for line in lines) == 1
     answer = json.loads((tmp_path / "out.json").read_text())
-    assert answer["valid"] is False and answer["verdict"] in "\n".join(lines)
+    assert answer["valid_for"] == "prediction" and answer["verdict"] in "\n".join(lines)
+    assert answer["joints"]["2"]["state"] == "undetermined"
+    assert answer["warnings"][0]["code"] == "torque_sign" and answer["warnings"][0]["joint"] == "2"
     for command in (
         f"compare {model} {log}",
         f"diagnose {model} {log}",
         f"add {model} stribeck --joint 1 {log} --out {tmp_path}/m2.json",
     ):
         said = printed(capsys, command)
-        assert sum(line.startswith("the fit of this model is not valid: ") for line in said) == 1
+        assert sum(line.startswith(f"the fit of this model is v{partly}") for line in said) == 1
 
 
 TOLD = "differs significantly between samples"
@@ -312,8 +318,7 @@ def test_gravity_along_another_axis_is_named_with_its_direction(of_log, of_file)
 def test_a_small_tilt_of_the_base_is_left_to_diagnosis():
     fit = with_findings(log_under(9.81 * np.array([np.sin(0.1), 0.0, -np.cos(0.1)])))
     assert "gravity of the robot file" not in fit.verdict.line
-    assert fit.verdict.valid_for != "parameters"
-    assert any(one.state != "good" for one in fit.verdict.by_joint.values())
+    assert fit.verdict.valid_for != "parameters" and fit.verdict.warnings
 
 
 VAGUE = {"delta", "orthoglide-2003", "orthoglide-2012"}

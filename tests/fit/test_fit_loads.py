@@ -168,7 +168,7 @@ def test_a_mass_that_is_not_told_is_not_tested_and_a_sum_is_called_a_sum(logs):
     for mass in (UNTOLD, 1.5 * UNTOLD):
         assert fit_loaded(logs, f"--payload-mass {mass} --json {logs}/f.json") == 0
         data = json.loads((logs / "f.json").read_text())
-        assert not any("weighs" in doubt for doubt in data["warnings"])
+        assert not any("weighs" in doubt["text"] for doubt in data["warnings"])
         assert f"its mass of {mass:g} kg is taken as given" in "\n".join(data["sentences"])
     assert fit_loaded(logs, f"--json {logs}/f.json") == 0
     data = json.loads((logs / "f.json").read_text())

@@ -180,7 +180,7 @@ def test_what_the_windows_do_not_show_makes_a_fit_not_usable(small_windows, any_
     """A torque wrong by half, in a thirtieth of the log, between two windows."""
     log = noisy_log(seconds=60.0)
     clean, _ = verdict_of(log)
-    assert clean.valid and not [line for line in clean.warnings if "windows" in line]
+    assert clean.valid and not [line for line in clean.lines if "windows" in line]
     tau = log.tau.copy()
     tau[2400:2800, 0] *= 1.5
     wrong, fit = verdict_of(log, tau=tau)

@@ -96,4 +96,4 @@ def test_what_the_noise_would_have_bent_is_said():
 def test_a_motion_that_is_mostly_noise_gives_no_values():
     _, fit = fitted(np.random.default_rng(5), slow_noise(0.3))
     assert fit.verdict.valid_for != "parameters"
-    assert any("values may be biased towards zero" in line for line in fit.verdict.warnings)
+    assert any("values may be biased towards zero" in line for line in fit.verdict.lines)
