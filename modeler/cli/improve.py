@@ -33,8 +33,9 @@ def run_diagnose(args: argparse.Namespace) -> DiagnosisReport:
     diagnosis, case = improve.diagnose_logs(
         model, args.logs, args.holdout, options, args.mapping, build_reporter()
     )
+    needs_motion = model.fit.verdict is not None and model.fit.verdict.needs_motion
     following = views.suggest_after_diagnosis(
-        args.model, args.logs, args.holdout, diagnosis, args.effects_from
+        args.model, args.logs, args.holdout, diagnosis, args.effects_from, needs_motion
     )
     print_lines([*format_lines(diagnosis), *model.warning])
     draw_result(args, lambda: _build_page(args, model, diagnosis, following))

@@ -284,7 +284,7 @@ class JointVerdict(ShortRepr):
     @property
     def needs_motion(self) -> bool:
         """Returns True if another motion would determine it."""
-        return self.cause in ("few_rows", "at_rest")
+        return self.cause in ("few_rows", "little_motion")
 
 
 @dataclass(frozen=True)
@@ -336,6 +336,11 @@ class Verdict(ShortRepr):
         """Returns True if it predicts every joint that has a motor, and not at rest only."""
         left_out = (one.cause not in ("", "no_motor") for one in self.by_joint.values())
         return self.valid and not any(left_out)
+
+    @property
+    def needs_motion(self) -> bool:
+        """Returns True if another motion would determine a joint."""
+        return any(joint.needs_motion for joint in self.by_joint.values())
 
     def format_warning(self) -> list[str]:
         """Returns a line for whoever uses a model that is not valid on every joint; else none."""

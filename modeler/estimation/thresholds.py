@@ -259,11 +259,10 @@ class Thresholds:
     """Fit error of the nearest consistent parameters over that of the fit, from which on it is
     reported."""
     good_error: float = 0.15
-    """Cross-validated error of a joint that is good; 12 measured machines."""
-    max_sample_error: float = 0.12
-    """Error on all samples, also at low speed, of a joint that is good; 12 measured machines."""
+    """Cross-validated error of a joint that is good, and error on all samples in a fifth of the
+    time; docs/explanation/processing.md."""
     max_block_error: float = 0.3
-    """The largest of both errors of a joint that is good in a fifth of the time."""
+    """Cross-validated error of a joint that is good in a fifth of the time."""
     max_cross_validated_error: float = 0.5
     """Cross-validated error above which a joint is not determined."""
     filter_correlation: float = 0.2

@@ -417,8 +417,10 @@ class TwoStepFit:
             f"joint {', '.join(never)} never moved alone for long enough, and the two steps use no "
             "other motion; record more motion of it alone, or use --method weighted"
         )
-        certain = worst > THRESHOLDS.half_variance_error
-        return [DataWarning(line, is_certain=certain, affects_values=True, code="no_single_motion")]
+        largest = THRESHOLDS.half_variance_error
+        lost = [j.name for j in self.result.joints if (j.relative_error or 0.0) > largest]
+        code = "no_single_motion"
+        return [DataWarning(line, bool(lost), not lost, joints=tuple(lost), code=code)]
 
     def _format_line(self, c: Configuration) -> str:
         names = self.steps.directions.names

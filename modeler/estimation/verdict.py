@@ -48,7 +48,7 @@ from modeler.runtime import CompiledModel
 _CAUSES = {
     "no_motor": ("it has no motor", ""),
     "no_torque": ("no row was fitted", "; log its torque, or mark it passive (mu = 0)"),
-    "at_rest": ("at rest in these logs", "; record the motion of `modeler excite`"),
+    "little_motion": ("too little motion in these logs", "; record the motion of `modeler excite`"),
     "lack_of_fit": (
         f"fit error above {format_percent(THRESHOLDS.max_fit_error)}",
         "; check units, signs and columns, and run `modeler diagnose`",
@@ -378,11 +378,11 @@ def judge_fit(
         possible = not impossible
         warnings += [*impossible, *find_negative_values(model.spec, result)]
         warnings += result.joint_warnings
-    sampled, worst = _compute_sample_errors(model, observation, result)
-    fifth = _number_fifths(observation)[observation.row_sample]
-    for k in range(THRESHOLDS.time_blocks):
-        worst = np.fmax(worst, compute_errors(equations, seen.residual, rows & (fifth == k)))
-    by_joint = _judge_joints(warnings, observation, result, (seen.errors, sampled, worst))
+    fifth, blocks = _number_fifths(observation)[observation.row_sample], THRESHOLDS.time_blocks
+    every = [compute_errors(equations, seen.residual, rows & (fifth == k)) for k in range(blocks)]
+    sampled = _compute_sample_errors(model, observation, result)
+    errors = seen.errors, np.nan_to_num(every).max(axis=0), sampled
+    by_joint = _judge_joints(warnings, observation, result, errors)
     text = _describe_prediction(equations, rows, result, seen, _list_predicted_joints(by_joint))
     verdict = dataclasses.replace(
         _write_verdict(warnings, by_joint, text),
@@ -403,15 +403,15 @@ def _number_fifths(observation: Observation) -> np.ndarray:
 
 def _compute_sample_errors(
     model: CompiledModel, observation: Observation, result: FitResult
-) -> tuple[np.ndarray, np.ndarray]:
-    """Returns (n,) errors on all undamaged samples, and on those of the worst block of time.
+) -> np.ndarray:
+    """Returns (n,) errors of the fit on all undamaged samples of the worst block of time.
 
     Rows are means of all samples, not of those that count: friction near standstill is what other
     motion meets, and no row of the fit. 0 with loads, which the model is without.
     """
     nothing, fifth = np.zeros(len(result.joints)), _number_fifths(observation)
     if result.by_load:
-        return nothing, nothing
+        return nothing
     counted = observation.used | (classify_rows(observation) == MASKS.index("low speed"))
     whole = observation.select_rows(np.zeros_like(observation.used))
     torque = np.concatenate([part.filter_torque() for part in whole.stretches])
@@ -422,7 +422,7 @@ def _compute_sample_errors(
         return np.sqrt(np.divide(residual, total, out=nothing.copy(), where=total > 0.0))
 
     blocks = (counted & (fifth == k)[:, None] for k in range(THRESHOLDS.time_blocks))
-    return compute_error(counted), np.max([compute_error(rows) for rows in blocks], axis=0)
+    return np.max([compute_error(rows) for rows in blocks], axis=0)
 
 
 def _is_fault(warning: DataWarning) -> bool:
@@ -442,7 +442,7 @@ def _judge_joints(
         warnings: of all joints.
         observation: that was fitted.
         result: of the fit.
-        errors: (n,) cross-validated, on all samples, and the largest of a block of time.
+        errors: (n,) cross-validated, the same in the worst block of time, and on all its samples.
     """
     names, verdicts = {joint.name for joint in result.joints}, {}
     general = [w for w in warnings if _is_fault(w) and not names & set(w.joints)]
@@ -450,25 +450,26 @@ def _judge_joints(
     for j, (joint, spec) in enumerate(zip(result.joints, observation.joints, strict=True)):
         about = [w for w in warnings if joint.name in w.joints]
         faults = [w for w in (*general, *about) if _is_fault(w)]
-        error, sampled, worst = (float(x[j]) for x in errors)
+        error, worst, sampled = (float(x[j]) for x in errors)
         fit_error, rests = joint.relative_error, travel[j] < REST_TRAVEL[spec.unit]
-        state, cause = _classify_errors(error, sampled, worst), ""
+        state, cause = _classify_errors(max(fit_error or 0.0, error), worst, sampled), ""
         if not spec.actuated:
             state, cause = "undetermined", "no_motor"
         elif faults:
             state, cause = "undetermined", faults[0].code
         elif fit_error is None:
-            state, cause = "undetermined", "at_rest" if rests else "no_torque"
+            is_slow = rests or observation.torque[:, j].any()
+            state, cause = "undetermined", "little_motion" if is_slow else "no_torque"
         elif state == "undetermined":
             cause = "lack_of_fit" if fit_error > THRESHOLDS.max_fit_error else "few_rows"
         elif rests:
-            state, cause = "doubtful", "at_rest"
+            state, cause = "doubtful", "little_motion"
         parts = [f"fit error {format_percent(fit_error)}"]
         parts += [f"cross-validated error {format_percent(error)}"] * bool(np.isfinite(error))
-        if sampled > THRESHOLDS.max_sample_error:
-            parts.append(f"error with low speeds {format_percent(sampled)}")
         if worst > THRESHOLDS.max_block_error:
             parts.append(f"in a fifth of the time {format_percent(worst)}")
+        if sampled > THRESHOLDS.good_error:
+            parts.append(f"low speeds included up to {format_percent(sampled)}")
         first = faults[0].line if faults else _CAUSES.get(cause, (", ".join(parts),))[0]
         first = ", ".join(parts) if cause in ("lack_of_fit", "few_rows") else first
         lines = dict.fromkeys([first, *(warning.line for warning in about)])
@@ -476,12 +477,12 @@ def _judge_joints(
     return verdicts
 
 
-def _classify_errors(error: float, sampled: float, worst: float) -> State:
+def _classify_errors(error: float, worst: float, sampled: float) -> State:
     """Returns the state of a joint with these errors; see `_judge_joints`."""
     if error > THRESHOLDS.max_cross_validated_error:
         return "undetermined"
-    is_small = error <= THRESHOLDS.good_error and sampled <= THRESHOLDS.max_sample_error
-    return "good" if is_small and worst <= THRESHOLDS.max_block_error else "doubtful"
+    is_good = max(error, sampled) <= THRESHOLDS.good_error and worst <= THRESHOLDS.max_block_error
+    return "good" if is_good else "doubtful"
 
 
 def _describe_prediction(
@@ -675,7 +676,7 @@ def _write_verdict(
 def _list_predicted_joints(by_joint: Mapping[str, JointVerdict]) -> list[str]:
     """Returns the joints that are predicted; those at rest only where nothing moves."""
     valid = [name for name, one in by_joint.items() if one.state != "undetermined"]
-    return [name for name in valid if by_joint[name].cause != "at_rest"] or valid
+    return [name for name in valid if by_joint[name].cause != "little_motion"] or valid
 
 
 def _describe_left_joints(by_joint: Mapping[str, JointVerdict]) -> list[str]:

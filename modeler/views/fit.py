@@ -118,7 +118,8 @@ def _summarise_fit(fit: FitResult) -> str:
 def _describe_refusal(fit: FitResult) -> str:
     """That a fit is not usable, and why: for a headline; "" of one that is."""
     verdict = fit.verdict
-    return "" if verdict is None or verdict.valid else f"; {verdict.line.partition(';')[0]}"
+    whole = verdict is None or verdict.is_valid_everywhere
+    return "" if verdict is None or whole else f"; {verdict.line.partition(';')[0]}"
 
 
 def collect_fit_tables(fit: FitResult) -> Tables:
@@ -343,6 +344,8 @@ def _build_verdict_blocks(fit: FitResult) -> list[page.Verdict | page.Items]:
     blocks: list[page.Verdict | page.Items] = []
     if fit.verdict is not None:
         kind, tag = ("noise", "valid") if fit.verdict.valid else ("pattern", "not valid")
+        if fit.verdict.valid and not fit.verdict.is_valid_everywhere:
+            kind, tag = "other", "in part"
         lines = [page.JudgedLine(kind, tag, "This fit", fit.verdict.line)]
         lines += [
             page.JudgedLine("other", "doubt", f"Warning {k}", text)

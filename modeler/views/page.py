@@ -472,10 +472,10 @@ def suggest_after_fit(
     following = [look, judge] if _is_effect_missing(fit) else [judge, look]
     if fit.verdict is None or fit.verdict.is_valid_everywhere:
         return following
-    joints = fit.verdict.by_joint.values()
-    if any(joint.needs_motion for joint in joints):
+    if fit.verdict.needs_motion:
         return [_suggest_motion(model, logs), *following]
-    if fit.verdict.valid and all(joint.cause in ("", "lack_of_fit") for joint in joints):
+    causes = {joint.cause for joint in fit.verdict.by_joint.values()}
+    if fit.verdict.valid and causes <= {"", "no_motor", "lack_of_fit"}:
         return following
     words = "".join(f" --map {_quote_words([word])}" for word in mapped)
     return [f"modeler log {_quote_words(logs[:1])} --robot {_quote_words([robot])}{words}", look]
@@ -530,10 +530,12 @@ def suggest_after_diagnosis(
     holdout: Sequence[str],
     diagnosis: "Diagnosis",
     effects_from: str | None = None,
+    needs_motion: bool = False,
 ) -> list[str]:
-    """Suggests to add the effects that have columns; else to compare or to generate."""
+    """Suggests to add the effects that have columns; else to record, to compare or to generate."""
     named = diagnosis.addable_findings
-    if not named and diagnosis.unjudged_joints and not diagnosis.machine_changed:
+    needs_motion |= bool(diagnosis.unjudged_joints)
+    if not named and needs_motion and not diagnosis.machine_changed:
         return [_suggest_motion(model, logs)]
     if not named and diagnosis.verdict == "nothing significant":
         return [_suggest_generate(model)]

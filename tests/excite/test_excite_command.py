@@ -110,6 +110,34 @@ def test_the_best_of_given_motions_is_chosen(capsys, folder, tmp_path):
     assert raw["condition_scaled"] == min(raw["single_conditions"])
 
 
+@pytest.mark.rotating("long tests of excite")
+def test_the_motion_that_a_fit_asks_for_determines_the_joint_that_rested(
+    capsys, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    time = np.arange(0.0, 12.0, 0.01)
+    swing = np.sin(np.pi * time / 12.0) ** 2 * (np.sin(3.0 * time) + 0.5 * np.sin(7.0 * time))
+    columns = np.column_stack([time, 0.0 * time, swing])
+    np.savetxt("rest.csv", columns, "%.9g", ",", header="time,q1,q2", comments="")
+
+    def record_log(motion, log):
+        words = ("--rate", 250, "--noise", 0.01, "--out", log)
+        assert run(capsys, "simulate", "two-link", "--motion", motion, *words)[0] == 0
+
+    record_log("rest.csv", "rest.parquet")
+    _, out, _ = run(capsys, "fit", "two-link", "rest.parquet", "--out", "m.json")
+    *_, verdict, following = out.splitlines()
+    assert verdict.startswith("Valid for prediction on joint 2; joint 1 ")
+    assert "too little motion in these logs; record the motion of `modeler excite`. " in verdict
+    assert following == "next: modeler excite m.json --from rest.parquet --out m-motion.csv"
+    assert run(capsys, *following.split()[2:])[0] == 0
+    record_log("m-motion.csv", "b.parquet")
+    words = ("--out", "m2.json", "--json", "m2.fit.json")
+    assert run(capsys, "fit", "two-link", "rest.parquet", "b.parquet", *words)[0] == 0
+    result = json.loads((tmp_path / "m2.fit.json").read_text())
+    assert {joint["state"] for joint in result["joints"].values()} == {"good"}
+
+
 OF_A_ROBOT = {
     "--limit 1=1,-1,2,8": "lower 1.0, upper -1.0",
     "--limit 1=-1,1,0,8": "speed 0.0",

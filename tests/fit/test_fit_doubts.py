@@ -133,7 +133,7 @@ def test_a_joint_that_stands_still_leaves_the_prediction(log):
     assert any("record a motion that moves all joints" in line for line in verdict.lines)
     assert verdict.by_joint["1"].state == "undetermined" and verdict.by_joint["1"].needs_motion
     assert verdict.line.startswith(
-        "Valid for prediction on joints 2, 3; joint 1 undetermined: at rest in these logs; record "
+        "Valid for prediction on joints 2, 3; joint 1 undetermined: too little motion in these "
     )
 
 
