@@ -461,15 +461,11 @@ class CrossValidation:
     Attributes:
         errors: (n,) ||y_j - W_j beta|| / ||y_j||, each segment predicted from the others; nan for
             a joint without rows or torque.
-        half_period: s, of the mean motion: the length of a segment.
-        stretches: that many.
         residual: (rows,) y - W beta, each row predicted from other segments; 0 for those left out.
         fold: (rows,) which segments were left out together; of rows that were used.
     """
 
     errors: np.ndarray
-    half_period: float
-    stretches: int
     residual: np.ndarray = field(default_factory=lambda: np.zeros(0))
     fold: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))
 
@@ -534,7 +530,7 @@ def cross_validate(
             beta = refit(sample_fold == k)
         residual[part] = equations.compute_residual(beta, part)
     errors = compute_errors(equations, residual, rows)
-    return CrossValidation(errors, half_period, len(seen), residual, fold)
+    return CrossValidation(errors, residual, fold)
 
 
 def compute_held_out_errors(

@@ -265,6 +265,9 @@ State = Literal["good", "doubtful", "undetermined"]
 Use = Literal["parameters", "prediction", "nothing"]
 """What a fit is valid for."""
 
+PREDICTED = ("", "no_motor", "low_speed")
+"""Causes of states of joints that are predicted, or have nothing to predict."""
+
 
 @dataclass(frozen=True)
 class JointVerdict(ShortRepr):
@@ -274,17 +277,12 @@ class JointVerdict(ShortRepr):
         state: "good": predicts its torque; "doubtful": predicts it with a large error, or at rest
             only; "undetermined": does not predict it, or its channels are wrong.
         why: sentences: its errors or what stands against it, then all warnings on it.
-        cause: code of what makes it doubtful or undetermined; "" of its errors alone.
+        cause: code of what makes it doubtful or undetermined; "" of its held-out errors alone.
     """
 
     state: State
     why: tuple[str, ...]
     cause: str = ""
-
-    @property
-    def needs_motion(self) -> bool:
-        """Returns True if another motion would determine it."""
-        return self.cause in ("few_rows", "little_motion")
 
 
 @dataclass(frozen=True)
@@ -334,13 +332,12 @@ class Verdict(ShortRepr):
     @property
     def is_valid_everywhere(self) -> bool:
         """Returns True if it predicts every joint that has a motor, and not at rest only."""
-        left_out = (one.cause not in ("", "no_motor") for one in self.by_joint.values())
-        return self.valid and not any(left_out)
+        return self.valid and all(one.cause in PREDICTED for one in self.by_joint.values())
 
     @property
     def needs_motion(self) -> bool:
         """Returns True if another motion would determine a joint."""
-        return any(joint.needs_motion for joint in self.by_joint.values())
+        return any(one.cause in ("few_rows", "little_motion") for one in self.by_joint.values())
 
     def format_warning(self) -> list[str]:
         """Returns a line for whoever uses a model that is not valid on every joint; else none."""

@@ -76,8 +76,6 @@ class Thresholds:
     """Error on all rows over that in windows of them; logs of one kind have 0.6 to 1.3."""
     max_systematic_share: float = 0.03
     """Rms of the correlated residual over that of the torque; tests/hidden_effects."""
-    max_open_share: float = 0.5
-    """Share of the parameters that logs may leave open; no study."""
     max_joint_ratio: float = 2.0
     """Residual of logs together over that alone from which on they are not of one robot."""
     min_different_share: float = 0.02
@@ -259,8 +257,9 @@ class Thresholds:
     """Fit error of the nearest consistent parameters over that of the fit, from which on it is
     reported."""
     good_error: float = 0.15
-    """Cross-validated error of a joint that is good, and error on all samples in a fifth of the
-    time; docs/explanation/processing.md."""
+    """Cross-validated error of a joint that is good; docs/explanation/processing.md."""
+    max_sample_error: float = 0.1
+    """Error on all samples, also at low speed, of a joint that is good; the same page."""
     max_block_error: float = 0.3
     """Cross-validated error of a joint that is good in a fifth of the time."""
     max_cross_validated_error: float = 0.5

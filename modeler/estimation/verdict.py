@@ -1,7 +1,7 @@
 """What a fit is valid for, why, and what to do: warnings, and the verdict of each joint."""
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 from scipy.special import chdtri
@@ -22,6 +22,7 @@ from modeler.estimation.identify import (
 from modeler.estimation.least_squares import solve_by_qr
 from modeler.estimation.prior import build_prior
 from modeler.estimation.result import (
+    PREDICTED,
     FitResult,
     JointFit,
     JointVerdict,
@@ -160,25 +161,6 @@ def find_systematic_residuals(result: FitResult, systematic_share: np.ndarray) -
     return [DataWarning(line, affects_values=True, joints=joints, code="systematic_residual")]
 
 
-def find_few_rows(result: FitResult, seen: CrossValidation) -> list[DataWarning]:
-    """Returns a warning on joints whose held-out torques the fit does not predict."""
-    errors = dict(zip((joint.name for joint in result.joints), seen.errors, strict=True))
-    least, ratio = THRESHOLDS.max_fit_error, THRESHOLDS.max_error_ratio
-    lost = {
-        joint.name: float(errors[joint.name])
-        for joint in _list_moving_joints(result)
-        if errors[joint.name] > max(least, ratio * (joint.relative_error or 0.0))
-    }
-    if not lost:
-        return []
-    line = (
-        f"{format_joints([*lost])}: cross-validated error up to "
-        f"{format_percent(max(lost.values()))}: the motion is too short or too uniform, or "
-        "columns do not belong together; record a longer motion, at many speeds and poses"
-    )
-    return [DataWarning(line, joints=tuple(lost), code="few_rows")]
-
-
 def find_unexplained_joints(
     result: FitResult, seen: CrossValidation, scale: np.ndarray
 ) -> list[DataWarning]:
@@ -220,18 +202,10 @@ def find_undetermined_parameters(
     """
     vague = [base.name for base, share in zip(spec.base, spread, strict=True) if share > 1.0]
     dropped = [p.name for p in result.parameters if p.sigma is None]
-    unknown, count = len({*vague, *dropped}), len(result.parameters)
 
     def shorten(names: list[str]) -> str:
         return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
 
-    if unknown > THRESHOLDS.max_open_share * count:
-        line = (
-            f"not enough data for {count} parameters: {unknown} of them are not identifiable from "
-            f"these logs ({shorten([*dropped, *vague])}); record a longer motion of all joints, at "
-            "many speeds and poses"
-        )
-        return [DataWarning(line, affects_values=True, code="undetermined_parameters")]
     causes = {
         "practically unidentifiable, the standard deviation exceeds the joint's rms torque; record "
         "poses and accelerations that the logs lack": vague,
@@ -363,7 +337,7 @@ def judge_fit(
     possible = None
     if not any(warning.is_certain for warning in warnings):  # else the fit describes the fault
         warnings += [*check_time(model, observation, result), *check_motion_noise(observation)]
-        warnings += [*find_few_rows(result, seen), *find_lack_of_fit(result)]
+        warnings += find_lack_of_fit(result)
         if is_part:
             scale = _compute_torque_ratio(data, observation, rows)
             warnings += find_unexplained_joints(result, seen, scale)
@@ -378,8 +352,9 @@ def judge_fit(
         possible = not impossible
         warnings += [*impossible, *find_negative_values(model.spec, result)]
         warnings += result.joint_warnings
-    fifth, blocks = _number_fifths(observation)[observation.row_sample], THRESHOLDS.time_blocks
-    every = [compute_errors(equations, seen.residual, rows & (fifth == k)) for k in range(blocks)]
+    block, blocks = observation.row_sample, THRESHOLDS.time_blocks
+    block = block * blocks // len(observation.time)
+    every = [compute_errors(equations, seen.residual, rows & (block == k)) for k in range(blocks)]
     sampled = _compute_sample_errors(model, observation, result)
     errors = seen.errors, np.nan_to_num(every).max(axis=0), sampled
     by_joint = _judge_joints(warnings, observation, result, errors)
@@ -395,34 +370,23 @@ def judge_fit(
     return dataclasses.replace(result, verdict=verdict, directions=directions)
 
 
-def _number_fifths(observation: Observation) -> np.ndarray:
-    """Returns (s,) the number of the block of time of each sample."""
-    count = len(observation.time)
-    return np.arange(count) * THRESHOLDS.time_blocks // count
-
-
 def _compute_sample_errors(
     model: CompiledModel, observation: Observation, result: FitResult
 ) -> np.ndarray:
-    """Returns (n,) errors of the fit on all undamaged samples of the worst block of time.
+    """Returns (n,) errors of the fit on all undamaged samples, those at low speed included.
 
     Rows are means of all samples, not of those that count: friction near standstill is what other
     motion meets, and no row of the fit. 0 with loads, which the model is without.
     """
-    nothing, fifth = np.zeros(len(result.joints)), _number_fifths(observation)
+    nothing = np.zeros(len(result.joints))
     if result.by_load:
         return nothing
-    counted = observation.used | (classify_rows(observation) == MASKS.index("low speed"))
+    rows = observation.used | (classify_rows(observation) == MASKS.index("low speed"))
     whole = observation.select_rows(np.zeros_like(observation.used))
     torque = np.concatenate([part.filter_torque() for part in whole.stretches])
     left = torque - compute_model_torque(whole, model, result.beta)
-
-    def compute_error(rows: np.ndarray) -> np.ndarray:
-        residual, total = (np.sum(x**2, axis=0, where=rows) for x in (left, torque))
-        return np.sqrt(np.divide(residual, total, out=nothing.copy(), where=total > 0.0))
-
-    blocks = (counted & (fifth == k)[:, None] for k in range(THRESHOLDS.time_blocks))
-    return np.max([compute_error(rows) for rows in blocks], axis=0)
+    squares, total = (np.sum(x**2, axis=0, where=rows) for x in (left, torque))
+    return np.sqrt(np.divide(squares, total, out=nothing, where=total > 0.0))
 
 
 def _is_fault(warning: DataWarning) -> bool:
@@ -442,7 +406,7 @@ def _judge_joints(
         warnings: of all joints.
         observation: that was fitted.
         result: of the fit.
-        errors: (n,) cross-validated, the same in the worst block of time, and on all its samples.
+        errors: (n,) cross-validated, the same in the worst block of time, and on all samples.
     """
     names, verdicts = {joint.name for joint in result.joints}, {}
     general = [w for w in warnings if _is_fault(w) and not names & set(w.joints)]
@@ -452,7 +416,7 @@ def _judge_joints(
         faults = [w for w in (*general, *about) if _is_fault(w)]
         error, worst, sampled = (float(x[j]) for x in errors)
         fit_error, rests = joint.relative_error, travel[j] < REST_TRAVEL[spec.unit]
-        state, cause = _classify_errors(max(fit_error or 0.0, error), worst, sampled), ""
+        state, cause = _classify_errors(max(fit_error or 0.0, error), worst), ""
         if not spec.actuated:
             state, cause = "undetermined", "no_motor"
         elif faults:
@@ -464,12 +428,14 @@ def _judge_joints(
             cause = "lack_of_fit" if fit_error > THRESHOLDS.max_fit_error else "few_rows"
         elif rests:
             state, cause = "doubtful", "little_motion"
+        elif state == "good" and sampled > THRESHOLDS.max_sample_error:
+            state, cause = "doubtful", "low_speed"
         parts = [f"fit error {format_percent(fit_error)}"]
         parts += [f"cross-validated error {format_percent(error)}"] * bool(np.isfinite(error))
         if worst > THRESHOLDS.max_block_error:
             parts.append(f"in a fifth of the time {format_percent(worst)}")
-        if sampled > THRESHOLDS.good_error:
-            parts.append(f"low speeds included up to {format_percent(sampled)}")
+        if sampled > THRESHOLDS.max_sample_error:
+            parts.append(f"error with low speeds {format_percent(sampled)}")
         first = faults[0].line if faults else _CAUSES.get(cause, (", ".join(parts),))[0]
         first = ", ".join(parts) if cause in ("lack_of_fit", "few_rows") else first
         lines = dict.fromkeys([first, *(warning.line for warning in about)])
@@ -477,12 +443,12 @@ def _judge_joints(
     return verdicts
 
 
-def _classify_errors(error: float, worst: float, sampled: float) -> State:
-    """Returns the state of a joint with these errors; see `_judge_joints`."""
+def _classify_errors(error: float, worst: float) -> State:
+    """Returns the state of a joint by its error, and by that of the worst block of time."""
     if error > THRESHOLDS.max_cross_validated_error:
         return "undetermined"
-    is_good = max(error, sampled) <= THRESHOLDS.good_error and worst <= THRESHOLDS.max_block_error
-    return "good" if is_good else "doubtful"
+    is_small = error <= THRESHOLDS.good_error and worst <= THRESHOLDS.max_block_error
+    return "good" if is_small else "doubtful"
 
 
 def _describe_prediction(
@@ -649,10 +615,13 @@ def _write_verdict(
     lines = list(dict.fromkeys(warning.line for warning in warnings))
     fatal = [w.line for w in warnings if _is_fault(w) and not by_joint.keys() & set(w.joints)]
     valid = [name for name, one in by_joint.items() if one.state != "undetermined"]
-    left_out = _describe_left_joints(by_joint)
+    left_out = list[str]()
+    for cause, names, text in _describe_left_joints(by_joint):
+        left_out.append(text)
+        entries += [VerdictWarning(cause, name, text) for name in names if cause in _CAUSES]
     reasons = [warning.line for warning in warnings if warning.affects_values]
-    doubtful = [name for name, one in by_joint.items() if one.state == "doubtful"]
-    reasons += [f"joint {name}, {by_joint[name].why[0]}" for name in doubtful]
+    doubtful = {n: f"joint {n}, {x.why[0]}" for n, x in by_joint.items() if x.state == "doubtful"}
+    reasons += [text for name, text in doubtful.items() if not by_joint[name].cause]
     use: Use = "prediction"
     if fatal or not valid:
         causes = {one.cause for one in by_joint.values()}
@@ -669,6 +638,7 @@ def _write_verdict(
         )
     else:
         use, line = "parameters", f"Valid for torque prediction: {error} on every joint. "
+        lines += doubtful.values()
         line += f"Note: {lines[0]}" if lines else "Parameters are physically consistent."
     return Verdict(use != "nothing", use, line, tuple(entries), (), by_joint)
 
@@ -679,11 +649,14 @@ def _list_predicted_joints(by_joint: Mapping[str, JointVerdict]) -> list[str]:
     return [name for name in valid if by_joint[name].cause != "little_motion"] or valid
 
 
-def _describe_left_joints(by_joint: Mapping[str, JointVerdict]) -> list[str]:
-    """Returns which joints are not predicted, why, and what to do; those of one cause together."""
-    groups: dict[str, list[str]] = {}
+def _describe_left_joints(
+    by_joint: Mapping[str, JointVerdict],
+) -> Iterator[tuple[str, list[str], str]]:
+    """Yields causes, the joints that are not predicted for each, and what, why and what to do."""
+    groups: dict[tuple[str, str], list[str]] = {}
     for name, one in by_joint.items():
-        if one.cause not in ("", "no_motor"):
+        if one.cause not in PREDICTED:
             why, remedy = _CAUSES.get(one.cause, (one.why[0].removeprefix(f"joint {name}: "), ""))
-            groups.setdefault(f"{one.state}: {why}{remedy}", []).append(name)
-    return [f"{format_joints(names)} {text}" for text, names in groups.items()]
+            groups.setdefault((one.cause, f"{one.state}: {why}{remedy}"), []).append(name)
+    for (cause, text), names in groups.items():
+        yield cause, names, f"{format_joints(names)} {text}"

@@ -475,7 +475,7 @@ def suggest_after_fit(
     if fit.verdict.needs_motion:
         return [_suggest_motion(model, logs), *following]
     causes = {joint.cause for joint in fit.verdict.by_joint.values()}
-    if fit.verdict.valid and causes <= {"", "no_motor", "lack_of_fit"}:
+    if fit.verdict.valid and "lack_of_fit" in causes:
         return following
     words = "".join(f" --map {_quote_words([word])}" for word in mapped)
     return [f"modeler log {_quote_words(logs[:1])} --robot {_quote_words([robot])}{words}", look]

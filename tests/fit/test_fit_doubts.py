@@ -99,7 +99,7 @@ DEFECTS = {
         lambda log: dataclasses.replace(log, tau=np.roll(log.tau, 800, axis=0)), "nothing",
         "is not described, even on the data of the fit; check units, signs"),
     "too few rows": (lambda log: cut_rows(log, slice(1000, 1800)), "nothing",
-                     "cross-validated error up to ", "record a longer motion, at many speeds"),
+                     "cross-validated error above 50 %", "record the motion of `modeler excite`"),
     "torque twice as large":
         (lambda log: dataclasses.replace(log, tau=log.tau * [1.0, 1.0, 2.0]), ""),
     "gear ratio": (lambda log: dataclasses.replace(log, q=log.q * [1.0, 1.0, 2.0]), ""),
@@ -131,7 +131,7 @@ def test_a_joint_that_stands_still_leaves_the_prediction(log):
         assert any(line.startswith(one.name) and "set aside" in line for line in fit.format_lines())
     assert verdict.valid_for != "parameters"
     assert any("record a motion that moves all joints" in line for line in verdict.lines)
-    assert verdict.by_joint["1"].state == "undetermined" and verdict.by_joint["1"].needs_motion
+    assert verdict.by_joint["1"].state == "undetermined" and verdict.needs_motion
     assert verdict.line.startswith(
         "Valid for prediction on joints 2, 3; joint 1 undetermined: too little motion in these "
     )

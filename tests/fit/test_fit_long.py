@@ -199,8 +199,8 @@ def test_noise_is_a_larger_share_of_slower_motion_and_no_doubt(small_windows):
     """Fast in the windows, slow between them: four times the relative error, the same in N m."""
     fit = identify_long(streamed_log(noisy_log()))
     errors = np.array([joint.relative_error for joint in fit.joints]) / 4.0
-    assert not find_unexplained_joints(fit, CrossValidation(errors, 1.0, 9), np.array([0.25, 0.25]))
-    validated = CrossValidation(errors, 1.0, 9)
+    assert not find_unexplained_joints(fit, CrossValidation(errors), np.array([0.25, 0.25]))
+    validated = CrossValidation(errors)
     assert len(find_unexplained_joints(fit, validated, np.array([1.0, 4.0]))) == 2
 
 

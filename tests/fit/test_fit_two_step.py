@@ -206,6 +206,6 @@ def test_too_few_configurations_and_joints_that_never_move_alone_are_named():
     steps = two_step.identify_in_two_steps(compiled(_ROBOT), second, _directions(_ROBOT))
     told = steps.collect_warnings()
     line = judge_fit(compiled(_ROBOT), second, steps.result, log_warnings=told).verdict.line
-    assert line.startswith("Valid for prediction on joints 2, 3; joint 1 undetermined: ")
+    assert line.startswith("Valid for prediction on joints m2, m3; joint m1 undetermined: ")
     assert "joint 1, 3 never moved alone for long enough" in line
     assert "check units, signs and columns" not in line
