@@ -15,6 +15,7 @@ import pyarrow.parquet as pq
 from benchmarks.child import modeler
 from benchmarks.line import Key, Line
 from modeler.api import compile_model, derive, generate, load
+from modeler.simulation import collect_motion_limits, draw_plant_parameters
 
 ROBOT = "ur10e"
 _STEP, _PIECE = 1e-3, 200_000
@@ -38,7 +39,9 @@ def write_log(place: Path, samples: int) -> None:
 def _pieces(model, names: list[str], samples: int) -> Iterator[pa.Table]:
     rng = np.random.default_rng(1)
     n = len(names)
-    beta = rng.uniform(0.5, 2.0, len(model.spec.base))
+    robot = load(ROBOT)  # a machine that can be built: the verdict does not search for one
+    drawn = draw_plant_parameters(robot, collect_motion_limits(robot)).standard
+    beta = np.array([sum(t.value * drawn[t.parameter] for t in b.terms) for b in model.spec.base])
     w = 2.0 * np.pi * rng.uniform(0.05, 0.5, (n, _WAVES))
     a, phase = rng.uniform(0.1, 0.5, (n, _WAVES)), rng.uniform(0.0, 6.28, (n, _WAVES))
     for first in range(0, samples, _PIECE):

@@ -426,3 +426,40 @@ size_t modeler_rows_triangle(const modeler_rows *given, int level, double *trian
     absorb(level, &own);
     return left_out;
 }
+
+/* The instructions of a level. */
+static void average(int level, size_t weights, const int *sample, const double *weight,
+                    const unsigned char *use, size_t use_step, const double *values, size_t step,
+                    size_t columns, double *mean)
+{
+#ifdef DISPATCHED
+    if (level == MODELER_AVX512) {
+        average_avx512(weights, sample, weight, use, use_step, values, step, columns, mean);
+        return;
+    }
+    if (level == MODELER_AVX2) {
+        average_avx2(weights, sample, weight, use, use_step, values, step, columns, mean);
+        return;
+    }
+#endif
+    (void)level;
+    average_baseline(weights, sample, weight, use, use_step, values, step, columns, mean);
+}
+
+void modeler_row_means(const modeler_means *given, int level, double *means)
+{
+    const size_t n = given->joints, c = given->columns;
+    level = modeler_fused_level(level);
+    for (size_t row = 0; row < given->rows; row++) {
+        const size_t start = (size_t)given->start[row];
+        const size_t weights = (size_t)given->start[row + 1] - start;
+        for (size_t j = 0; j < n; j++) {
+            const int used = given->used[row * n + j];
+            const size_t first = (size_t)given->span[2 * j];
+            average(level, weights, given->sample + start, given->weight + start,
+                    used ? given->usable + j : given->whole, used ? n : 1,
+                    given->values + j * c + first, n * c, (size_t)given->span[2 * j + 1] - first,
+                    means + (row * n + j) * c + first);
+        }
+    }
+}

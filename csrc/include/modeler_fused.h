@@ -95,6 +95,20 @@ size_t modeler_rows_work(int columns);
 size_t modeler_rows_triangle(const modeler_rows *given, int level, double *triangle, size_t *added,
                              void *work);
 
+/* Weighted means of samples: row after row its weights, from start[row] on, and their samples.
+ * values are (samples, joints, columns), of which joint j has span[2j] up to span[2j+1]. A row of a
+ * joint is a mean over samples with usable[sample*joints + j] where used[row*joints + j], else over
+ * those with whole[sample]; 0 without any. */
+typedef struct {
+    size_t rows, joints, columns;
+    const int *start, *sample, *span;
+    const double *weight, *values;
+    const unsigned char *usable, *whole, *used;
+} modeler_means;
+
+/* means: (rows, joints, columns); what lies beyond the span of a joint stays. */
+void modeler_row_means(const modeler_means *given, int level, double *means);
+
 #ifdef __cplusplus
 }
 #endif

@@ -198,6 +198,38 @@ TARGET static void OWN(spoilt)(int entries, const double *values, double lanes[M
     }
 }
 
+/* Values of any place in memory. */
+#define LOOSE OWN(loose)
+__extension__ typedef double LOOSE __attribute__((vector_size(8 * LANES), may_alias, aligned(8)));
+
+/* mean[k] = sum of w x[k] over the samples in use, over the sum of w; 0 without any. */
+TARGET static void OWN(average)(size_t weights, const int *sample, const double *weight,
+                                const unsigned char *use, size_t use_step, const double *values,
+                                size_t step, size_t columns, double *mean)
+{
+    double total = 0.0;
+    memset(mean, 0, columns * sizeof *mean);
+    for (size_t i = 0; i < weights; i++) {
+        const size_t at = (size_t)sample[i];
+        if (!use[at * use_step]) {
+            continue;
+        }
+        const double w = weight[i], *x = values + at * step;
+        size_t k = 0;
+        total += w;
+        for (; k + LANES <= columns; k += LANES) {
+            *(LOOSE *)(void *)(mean + k) += w * *(const LOOSE *)(const void *)(x + k);
+        }
+        for (; k < columns; k++) {
+            mean[k] += w * x[k];
+        }
+    }
+    for (size_t k = 0; k < columns && total > 0.0; k++) {
+        mean[k] /= total;
+    }
+}
+
+#undef LOOSE
 #undef VECTOR
 #undef AT
 #undef SEEN

@@ -38,18 +38,12 @@ class RowFilter(ShortRepr):
     weights: csr_array
     centres: np.ndarray
 
-    def average_samples(
-        self,
-        values: np.ndarray,
-        usable: np.ndarray,
-        used: np.ndarray | None = None,
-        whole: np.ndarray | None = None,
-    ) -> np.ndarray:
+    def average_samples(self, values: np.ndarray, usable: np.ndarray) -> np.ndarray:
         """Averages values (samples, ...) over usable (samples,) by row: (rows, ...), 0 without any.
 
-        Rows that are not used (rows,), if that is given, are means over whole (samples,).
+        As `runtime.average_rows`, which has such samples for each joint.
         """
-        masked = restrict_weights(self.weights, usable, used, whole)
+        masked = restrict_weights(self.weights, usable)
         total = masked @ np.ones(len(usable))
         flat = masked @ values.reshape(len(values), -1)
         flat = flat / np.where(total > 0.0, total, 1.0)[:, None]
@@ -70,21 +64,9 @@ class RowFilter(ShortRepr):
         return (self.weights @ usable.astype(float)) / self.weights.sum(axis=1)[:, None]
 
 
-def restrict_weights(
-    weights: csr_array,
-    usable: np.ndarray,
-    used: np.ndarray | None = None,
-    whole: np.ndarray | None = None,
-) -> csr_array:
-    """Returns the weights (rows, samples) with 0 for samples that are not usable (samples,).
-
-    In rows that are not used (rows,) with 0 for samples that are not whole (samples,).
-    """
-    counts = usable[weights.indices]
-    if used is not None and whole is not None and not used.all():
-        row_used = np.repeat(used, np.diff(weights.indptr))
-        counts = np.where(row_used, counts, whole[weights.indices])
-    data = weights.data * counts
+def restrict_weights(weights: csr_array, usable: np.ndarray) -> csr_array:
+    """Returns the weights (rows, samples) with 0 for samples that are not usable (samples,)."""
+    data = weights.data * usable[weights.indices]
     return csr_array((data, weights.indices, weights.indptr), shape=weights.shape)
 
 

@@ -15,7 +15,7 @@ from modeler.numerics import filters
 from modeler.regression.motion import ChosenProcessing, Segment, dilate_flags
 from modeler.regression.motion_noise import MotionNoise
 from modeler.regression.thresholds import THRESHOLDS
-from modeler.runtime import CompiledModel
+from modeler.runtime import CompiledModel, average_rows
 
 REST_TRAVEL = {"rad": 5e-3, "m": 2e-4}  # a joint that rests in a log, its encoder's steps included
 IDLE_TRAVEL = {"rad": 1e-3, "m": 1e-4}  # less than this over all logs counts as standing still
@@ -421,13 +421,9 @@ class FilteredSegment(ShortRepr):
         spans: Sequence[slice] | None = None,
     ) -> np.ndarray:
         """Returns means over usable samples where the row counts, over whole samples elsewhere."""
-        result = np.zeros((len(used), *values.shape[1:]))
-        for j in range(values.shape[1]):
-            index = (slice(None), j) if spans is None else (slice(None), j, spans[j])
-            result[index] = part.average_samples(
-                values[index], self.usable[window, j], used[:, j], self.segment.whole[window]
-            )
-        return result
+        weights = part.weights.data, part.weights.indices, part.weights.indptr
+        usable, whole = self.usable[window], self.segment.whole[window]
+        return average_rows(weights, values, usable, used, whole, spans)
 
 
 def filter_segment(

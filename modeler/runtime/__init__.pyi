@@ -7,6 +7,7 @@ from .build import (
 from .fused import (
     NonzeroPattern as NonzeroPattern,
     Triangles as Triangles,
+    average_rows as average_rows,
     make_empty_triangles as make_empty_triangles,
     reduce_rows as reduce_rows,
 )

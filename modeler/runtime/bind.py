@@ -520,6 +520,22 @@ class FusedLibrary:
         )
         return int(added[0]), int(left)
 
+    def average_rows(
+        self, sizes: Sequence[int], arrays: Mapping[str, np.ndarray], level: int, out: np.ndarray
+    ) -> None:
+        """Fills weighted means of samples; see `modeler_means`.
+
+        Args:
+            sizes: rows, joints, columns.
+            arrays: its other fields, C-contiguous.
+            level: of instructions.
+            out: (rows, joints, columns).
+        """
+        fields: dict[str, Any] = dict(zip(("rows", "joints", "columns"), sizes, strict=True))
+        fields |= {name: self._make_pointer(array) for name, array in arrays.items()}
+        means = self._ffi.new("modeler_means *", fields)
+        self._library.modeler_row_means(means, level, self._make_pointer(out))
+
     def _make_source(
         self, rows_of_entries: np.ndarray, functions: EntryFunctions, joints: int
     ) -> Any:

@@ -213,6 +213,40 @@ def reduce_rows(
     return Triangles(pattern, packed, rows, np.zeros(0, dtype=bool))
 
 
+def average_rows(
+    weights: tuple[np.ndarray, np.ndarray, np.ndarray],
+    values: np.ndarray,
+    usable: np.ndarray,
+    used: np.ndarray,
+    whole: np.ndarray,
+    spans: Sequence[slice] | None = None,
+    level: int = 0,
+) -> np.ndarray:
+    """Returns weighted means (rows, n, ...) of values (samples, n, ...), 0 without any sample.
+
+    Args:
+        weights: of all rows, their samples, and (rows + 1,) where each row's begin, as of a CSR
+            matrix.
+        values: n joints.
+        usable: (samples, n) bool, which samples a row that is used averages.
+        used: (rows, n) bool.
+        whole: (samples,) bool, which ones another row averages.
+        spans: of each joint, the columns that are averaged, the others are 0; None: all.
+        level: of instructions; 0: the best of this processor.
+    """
+    values = np.ascontiguousarray(values, dtype=float)
+    sizes = *used.shape, int(np.prod(values.shape[2:], dtype=int))
+    ends = [(0, sizes[2])] * sizes[1] if spans is None else [(s.start or 0, s.stop) for s in spans]
+    numbers = dict(zip(("sample", "start", "span"), (*weights[1:], ends), strict=True))
+    flags = {"usable": usable, "whole": whole, "used": used}
+    arrays = {name: np.ascontiguousarray(x, np.intc) for name, x in numbers.items()}
+    arrays |= {name: np.ascontiguousarray(x, bool) for name, x in flags.items()}
+    out = np.zeros((len(used), *values.shape[1:]))
+    library = bind.load_fused_library()
+    library.average_rows(sizes, arrays | {"weight": weights[0], "values": values}, level, out)
+    return out
+
+
 def _merge_blocks(
     library: FusedLibrary,
     pattern: NonzeroPattern,

@@ -16,6 +16,12 @@ typedef struct {
     const double *W, *y;
     const unsigned char *use;
 } modeler_rows;
+typedef struct {
+    size_t rows, joints, columns;
+    const int *start, *sample, *span;
+    const double *weight, *values;
+    const unsigned char *usable, *whole, *used;
+} modeler_means;
 int modeler_fused_level(int);
 size_t modeler_fused_work(const modeler_source *);
 size_t modeler_fused_triangles(const modeler_source *, size_t, const modeler_samples *, int,
@@ -23,3 +29,4 @@ size_t modeler_fused_triangles(const modeler_source *, size_t, const modeler_sam
 void modeler_fused_merge(const modeler_source *, int, double *, const double *, void *);
 size_t modeler_rows_work(int);
 size_t modeler_rows_triangle(const modeler_rows *, int, double *, size_t *, void *);
+void modeler_row_means(const modeler_means *, int, double *);

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from modeler.core.errors import ShapeError
+from modeler.numerics.filters import build_row_filter
 from modeler.runtime import build, fused
 from modeler.runtime.bind import load_fused_library
 from tests.modules import plain, states
@@ -119,6 +120,25 @@ def test_a_sample_that_is_not_finite_is_told_and_spoils_no_other(value):
             assert result.rows.tolist() == [42, 42, 42]
             check(result.triangles, clean[:, mask])
         array[sample, 2] = before
+
+
+def test_rows_are_means_over_the_samples_that_they_may_use():
+    """Each joint its samples and columns; a row that does not count is a mean over whole ones."""
+    random = np.random.default_rng(4)
+    rows = build_row_filter(np.arange(2, 400, 7), 400, 0.01, 5.0)
+    values, usable = random.normal(size=(400, 3, 21)), random.random((400, 3)) > 0.7
+    used, whole = random.random((len(rows.centres), 3)) > 0.2, random.random(400) > 0.1
+    usable[:60, 1] = False  # rows without any
+    spans = [slice(3, 20), slice(0), slice(2, 3)]
+    expected = np.zeros((*used.shape, 21))
+    for j, span in enumerate(spans):
+        means = (rows.average_samples(values[:, j], flags) for flags in (usable[:, j], whole))
+        expected[:, j, span] = np.where(used[:, j, None], *means)[:, span]
+    values[~whole & ~usable.any(axis=1)] = np.nan  # what no row may use may hold anything
+    weights = rows.weights.data, rows.weights.indices, rows.weights.indptr
+    for level in levels():
+        means = fused.average_rows(weights, values, usable, used, whole, spans, level)
+        np.testing.assert_allclose(means, expected, rtol=1e-12, atol=1e-13)
 
 
 def test_threads_and_blocks_give_the_same_bits(monkeypatch):
