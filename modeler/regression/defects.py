@@ -56,6 +56,12 @@ def find_spikes(
     if not stretches:
         return [], floors
     channels = [[part[:, j] for part in stretches] for j in range(stretches[0].shape[1])]
+    if floors is not None and not any(
+        noise.can_depart(part, floor)
+        for channel, floor in zip(channels, floors, strict=True)
+        for part in channel
+    ):
+        return [[[] for _ in channel] for channel in channels], floors
     departed = [[noise.subtract_running_median(part) for part in channel] for channel in channels]
     if floors is None:
         floors = np.array(list(map(_compute_floor, channels, departed)))
@@ -248,6 +254,14 @@ def scan_jumps(
     beside[THRESHOLDS.jerk_samples] = False
     fastest = maximum_filter(speeds, footprint=beside, mode="nearest")
     return EncoderJumpScan(q, turns, speed, excess, fastest)
+
+
+def can_leap(time: np.ndarray, q: np.ndarray, floors: np.ndarray) -> bool:
+    """Returns False if `scan_jumps` of a segment has no excess above floors (J,), and no turn."""
+    dt = np.diff(time)
+    least = np.minimum(floors, 0.4 * _TURN) / dt.max()
+    slopes = np.diff(q.T) / dt
+    return any(noise.can_depart(*pair) for pair in zip(slopes, least, strict=True))
 
 
 def compute_jump_floors(walks: Sequence[EncoderJumpScan], resolution: np.ndarray) -> np.ndarray:

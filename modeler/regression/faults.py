@@ -14,6 +14,7 @@ from modeler.regression.defects import (
     Defects,
     Kind,
     TorqueScales,
+    can_leap,
     compute_jump_floors,
     compute_local_floors,
     compute_torque_scales,
@@ -196,6 +197,10 @@ def _find_all_jumps(
     )
     there = np.isfinite(log.q).all(axis=1)
     stretches = [rows for rows in _iterate_stretches(log, there) if len(rows) > noise.LEAST]
+    if scales is not None and not any(
+        can_leap(log.time[k], log.q[k], scales.leaps) for k in stretches
+    ):
+        return positions, stretches, steps, scales.leaps
     logged = np.zeros_like(log.q) if log.qd is None else log.qd
     walks = [scan_jumps(log.time[k], log.q[k], revolute, steps, logged[k]) for k in stretches]
     if scales is None:
@@ -265,7 +270,7 @@ def _find_spikes(
         rows = [part for part in _iterate_stretches(log, there) if len(part) >= noise.LEAST]
         parts = [values[part] for part in rows]
         spikes, floors[name] = find_spikes(parts, None if scales is None else scales.floors[name])
-        if name == "tau" and parts:
+        if name == "tau" and parts and (torque is None or any(map(any, spikes))):
             speeds = [np.gradient(log.q[part], log.time[part], axis=0) for part in rows]
             torque = torque or compute_torque_scales(parts, speeds)
             spikes = select_unexplained(spikes, parts, speeds, torque)

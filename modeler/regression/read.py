@@ -123,8 +123,8 @@ def build_log(table: LogTable, spec: ModuleSpec, measured: bool = True) -> Log:
         name=table.path.name,
         joints=tuple(joint.name for joint in spec.joints),
         time=time,
-        q=np.column_stack(positions),
-        tau=np.column_stack([values for values, _, _ in torques]),
+        q=np.stack(positions).T,  # channels are contiguous
+        tau=np.stack([values for values, _, _ in torques]).T,
         qd=_read_optional(table, "qd", spec, reading_notes),
         qdd=_read_optional(table, "qdd", spec, reading_notes),
         commanded=_read_optional(table, "qc", spec, reading_notes),
@@ -271,7 +271,7 @@ def _read_optional(
     names = [f"{prefix}{joint.name}" for joint in spec.joints]
     there = [name for name in names if name in table]
     if len(there) == len(names):
-        return np.column_stack([table.read_measured(name) for name in names])
+        return np.stack([table.read_measured(name) for name in names]).T
     if there:
         absent = [name for name in names if name not in table]
         reading_notes.append(

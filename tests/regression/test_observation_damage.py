@@ -10,6 +10,8 @@ import pyarrow.parquet as pq
 import pytest
 from rough_joint import KINDS, rough_log
 
+from modeler.numerics.noise import can_depart, subtract_running_median
+from modeler.regression.defects import can_leap, scan_jumps
 from modeler.regression.faults import repair_log
 from modeler.regression.log import Log
 from modeler.regression.motion import Processing
@@ -290,3 +292,22 @@ def test_nothing_is_found_in_measured_logs(measured_folder, folder):
         spec = manifest_of(names, {"emps": "1", "dvrk_psm": "3"}.get(folder, ""))
         result = repaired(read_log(path, spec), spec)[1]
         assert [one.kind for one in result] == ["repeated"] * (folder == "panda"), path.name
+
+
+def test_what_is_passed_over_has_no_departure_and_no_leap():
+    """Values that rise, stay and leap at random, so that all orders come; also at the ends."""
+    random, passed = np.random.default_rng(9), 0
+    for _ in range(300):
+        walk = random.normal(size=60) * random.choice([0.0, 0.1, 1.0], 60)
+        values = np.cumsum(walk) if random.random() < 0.5 else walk
+        time = np.cumsum(random.uniform(0.5, 1.5, 60))
+        floor = random.uniform(0.5, 4.0) * float(np.abs(np.diff(values)).max())
+        if not can_depart(values, floor):
+            passed += 1
+            assert np.abs(subtract_running_median(values)).max() <= floor
+        positions, least = values[:, None], np.array([floor])
+        scan = scan_jumps(time, positions, np.ones(1, bool), np.zeros(1), np.zeros((60, 1)))
+        if not can_leap(time, positions, least):
+            passed += 1
+            assert np.abs(scan.excess).max() <= floor and not scan.turns.any()
+    assert 100 < passed < 500
