@@ -67,6 +67,10 @@ class Chunk:
         start, stop = self.span
         return np.asarray((time >= start) & (time < stop))
 
+    def find_inside(self, time: np.ndarray) -> slice:
+        """Returns which of increasing times (n,), s, are its own."""
+        return slice(*np.searchsorted(time, self.span).tolist())
+
     def is_inner(self, rows: np.ndarray | int) -> np.ndarray:
         """Returns True for the rows of `log` that are its own."""
         return np.asarray((self.inner_rows.start <= rows) & (rows < self.inner_rows.stop))

@@ -4,6 +4,7 @@ import dataclasses
 import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -107,7 +108,7 @@ class Log(Result):
             return np.zeros(self.rows, dtype=int)
         return np.concatenate([[0], np.cumsum(np.diff(self.segment) != 0)])
 
-    @property
+    @cached_property
     def step(self) -> float:
         """Returns the median time step, s.
 
@@ -170,7 +171,7 @@ def compute_block_hash(*measurements: np.ndarray) -> bytes:
     content = hashlib.sha256()
     for values in measurements:
         # Adding 0 makes -0 into 0: writers differ there, and no fit does.
-        numbers = np.ascontiguousarray(values + 0.0, dtype="<f8")
+        numbers = np.add(values, 0.0, order="C", dtype="<f8")
         numbers[np.isnan(numbers)] = np.nan
         content.update(f"{numbers.shape}".encode())
         content.update(numbers.tobytes())
@@ -321,13 +322,15 @@ def split_log(
 
 
 def _build_piece(
-    log: Log, run: int, rows: np.ndarray, clipped: np.ndarray, logged_motion: bool
+    log: Log, run: int, rows: np.ndarray | slice, clipped: np.ndarray, logged_motion: bool
 ) -> RawSegment:
     measured = log.time[rows]
+    if rows[-1] - rows[0] == len(rows) - 1:
+        rows = slice(rows[0], rows[-1] + 1)  # views, where no row is left out
     samples = max(THRESHOLDS.min_piece_rows, round((measured[-1] - measured[0]) / log.step) + 1)
     time = np.linspace(measured[0], measured[-1], samples)
     step = float(measured[-1] - measured[0]) / (samples - 1)  # of large times, two are too coarse
-    uniform = samples == len(rows)
+    uniform = samples == len(measured)
     uniform = uniform and bool(np.all(np.abs(measured - time) <= THRESHOLDS.max_jitter * step))
     near = np.arange(samples)  # the measured row nearest to each sample
     if not uniform:

@@ -384,7 +384,9 @@ def check_size(log: Log, spec: ModuleSpec) -> None:
     """
     for label in ("q", "qd", "qdd", "tau"):
         values = getattr(log, label)
-        if values is None or not np.isfinite(values).any():
+        if values is None or np.abs(values).max(initial=0.0) <= THRESHOLDS.max_value:
+            continue  # the usual case, which is cheap
+        if not np.isfinite(values).any():
             continue
         row, j = np.unravel_index(int(np.nanargmax(np.abs(values))), values.shape)
         if abs(values[row, j]) > THRESHOLDS.max_value:

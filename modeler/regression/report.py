@@ -471,14 +471,14 @@ def count_rows(
         check: of its logged derivatives.
     """
     none = np.zeros(len(chunk.log.joints), dtype=int)
-    inner_masks = [chunk.is_inside(piece.time) for piece in pieces]
-    begun = [piece for piece, rows in zip(pieces, inner_masks, strict=True) if rows[0]]
-    pairs = zip(pieces, inner_masks, strict=True)
+    inner_rows = [chunk.find_inside(piece.time) for piece in pieces]
+    pairs = list(zip(pieces, inner_rows, strict=True))
+    begun = [piece for piece, rows in pairs if rows.start == 0 < rows.stop]
     clipped = [piece.clipped[rows].sum(axis=0) for piece, rows in pairs]
     bad = () if check is None else check.bad
     widths = cuts.widths[chunk.is_inside(cuts.gaps)]
-    wrong = sum(int(flags[rows].sum()) for flags, rows in zip(bad, inner_masks, strict=False))
-    short = chunk.is_inside(cuts.short).sum() + sum(int(rows.sum()) for rows in inner_masks)
+    wrong = sum(int(flags[rows].sum()) for flags, rows in zip(bad, inner_rows, strict=False))
+    short = chunk.is_inside(cuts.short).sum() + sum(rows.stop - rows.start for rows in inner_rows)
     missing = cut_rows(chunk.log, chunk.inner_rows).missing
     resampled = sum(piece.resampled for piece in begun)
     sums: dict[str, Any] = {"chunks": 1, "rows": chunk.rows, "gaps": len(widths)}
@@ -486,8 +486,7 @@ def count_rows(
     sums |= {"missing": Counter(missing), "clipped": sum(clipped, none), "contradicted": wrong}
     sums |= dict.fromkeys(("used", "valid", "usable", *CAUSES), none)
     for part in stretches:
-        s, inside = part.segment, np.flatnonzero(chunk.is_inside(part.segment.time))
-        rows = slice(inside[0], inside[-1] + 1) if inside.size else slice(0, 0)
+        s, rows = part.segment, chunk.find_inside(part.segment.time)
         valid, full = s.valid[rows].sum(axis=0), rows.stop - rows.start
         counts = {"valid": valid, "full": full, "usable": part.usable[rows].sum(axis=0)}
         counts |= {"used": part.used.sum(axis=0), "samples": len(part.rows.centres)}

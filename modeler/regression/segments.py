@@ -196,11 +196,12 @@ def clear_resting_speeds(
         still: names of those that move in no log.
     """
     turned = {part.name: np.flatnonzero(part.coefficients) for part in parts}
+    ends = [(s.run, np.stack([s.q.min(axis=0), s.q.max(axis=0)])) for s in segments]
+    whole = np.ptp(np.concatenate([ends_of for _, ends_of in ends]), axis=0) if ends else 0.0
     cleared_segments = []
     for segment in segments:
-        positions = [s.q for s in segments if s.run == segment.run]
-        travel = np.ptp(np.concatenate(positions), axis=0)
-        whole = np.ptp(np.concatenate([s.q for s in segments]), axis=0)
+        logged = [ends_of for run, ends_of in ends if run == segment.run]
+        travel = np.ptp(np.concatenate(logged), axis=0)
         joints = tuple(
             int(j[0])
             for part in parts

@@ -52,7 +52,7 @@ WINDOWS = 8
 """Windows of all logs together, at least one of each log."""
 
 
-WINDOW = 16_384
+WINDOW = 4_096
 """Rows of a window, at least ..."""
 
 SECONDS = 8.0
@@ -344,6 +344,8 @@ def _find_centres(segment: Segment, chunk: Chunk, chosen: LogChoices) -> np.ndar
 def _find_clipped(log: Log, pieces: Sequence[RawSegment]) -> np.ndarray:
     """Returns (2, J) the ends of each torque's range that were taken for a limit; NaN of others."""
     limits = []
+    if not any(piece.clipped.any() for piece in pieces):
+        return np.full((2, log.tau.shape[1]), np.nan)
     for end in (np.fmin.reduce(log.tau, axis=0), np.fmax.reduce(log.tau, axis=0)):
         at = [np.any(piece.clipped & (piece.tau == end), axis=0) for piece in pieces]
         limits.append(np.where(np.any(at, axis=0), end, np.nan))
