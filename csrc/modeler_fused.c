@@ -215,6 +215,19 @@ static const double *lanes_of(const double *rows, size_t width, size_t first, si
     return copy;
 }
 
+/* The entries of one of some samples. */
+static void entries_of(const modeler_source *source, const double *q, const double *qd,
+                       const double *qdd, const double *s, size_t at, double *entries)
+{
+    const size_t n = (size_t)source->joints, m = (size_t)source->signals;
+    q += at * n, qd += at * n, qdd += at * n;
+    if (source->entries_signals != NULL) {
+        source->entries_signals(q, qd, qdd, s + at * m, entries);
+    } else {
+        source->entries(q, qd, qdd, entries);
+    }
+}
+
 static void evaluate(const modeler_source *source, const modeler_samples *given, size_t first,
                      size_t count, const group *own)
 {
@@ -231,11 +244,7 @@ static void evaluate(const modeler_source *source, const modeler_samples *given,
     /* One sample after the other. */
     double *one = own->one;
     for (size_t lane = 0; lane < MODELER_LANES; lane++) {
-        if (source->entries_signals != NULL) {
-            source->entries_signals(q + lane * n, qd + lane * n, qdd + lane * n, s + lane * m, one);
-        } else {
-            source->entries(q + lane * n, qd + lane * n, qdd + lane * n, one);
-        }
+        entries_of(source, q, qd, qdd, s, lane, one);
         for (size_t k = 0; k < entries; k++) {
             own->values[k * MODELER_LANES + lane] = one[k];
         }
@@ -393,12 +402,31 @@ size_t modeler_rows_work(int columns)
     return 64 + padded(columns) * STRIDE * sizeof(double);
 }
 
+/* Puts a row behind those that wait in the tile; 0 if it is not finite. */
+static size_t append_row(int level, shaft *joint, const double *row, const int *column, double y)
+{
+    double *place = joint->tile + joint->filled, good = 0.0;
+    const size_t entries = (size_t)joint->entries;
+    for (size_t k = 0; k <= entries; k++) {
+        const double value = k == entries ? y : row[column == NULL ? k : (size_t)column[k]];
+        const double scaled = value * OVERFLOWS;
+        good += scaled * scaled * 0.0;
+        place[k * STRIDE] = value;
+    }
+    if (!(good == 0.0)) {
+        return 0;
+    }
+    if (++joint->filled == MODELER_FUSED_ROWS) {
+        absorb(level, joint);
+    }
+    return 1;
+}
+
 size_t modeler_rows_triangle(const modeler_rows *given, int level, double *triangle, size_t *added,
                              void *work)
 {
     const size_t p = padded(given->columns);
     shaft own = {0, given->columns, p, 0, triangle, aligned(work)};
-    const size_t columns = (size_t)given->columns;
     size_t left_out = 0;
     level = modeler_fused_level(level);
     memset(own.tile, 0, p * STRIDE * sizeof *own.tile);
@@ -406,22 +434,10 @@ size_t modeler_rows_triangle(const modeler_rows *given, int level, double *trian
         if (given->use != NULL && !given->use[i * given->use_step]) {
             continue;
         }
-        const double *row = given->W + i * given->step;
-        double *place = own.tile + own.filled, good = 0.0;
-        for (size_t k = 0; k <= columns; k++) {
-            const double value = k < columns ? row[given->column[k]] : given->y[i * given->y_step];
-            const double scaled = value * OVERFLOWS;
-            good += scaled * scaled * 0.0;
-            place[k * STRIDE] = value;
-        }
-        if (!(good == 0.0)) {
-            left_out++;
-            continue;
-        }
-        ++*added;
-        if (++own.filled == MODELER_FUSED_ROWS) {
-            absorb(level, &own);
-        }
+        const double *row = given->W + i * given->step, y = given->y[i * given->y_step];
+        const size_t good = append_row(level, &own, row, given->column, y);
+        *added += good;
+        left_out += 1 - good;
     }
     absorb(level, &own);
     return left_out;
@@ -429,21 +445,24 @@ size_t modeler_rows_triangle(const modeler_rows *given, int level, double *trian
 
 /* The instructions of a level. */
 static void average(int level, size_t weights, const int *sample, const double *weight,
-                    const unsigned char *use, size_t use_step, const double *values, size_t step,
-                    size_t columns, double *mean)
+                    const unsigned char *use, size_t use_step, const double *values, size_t first,
+                    size_t step, size_t columns, double *mean)
 {
 #ifdef DISPATCHED
     if (level == MODELER_AVX512) {
-        average_avx512(weights, sample, weight, use, use_step, values, step, columns, mean);
+        average_avx512(weights, sample, weight, use, use_step, values, first, step, columns,
+                       mean);
         return;
     }
     if (level == MODELER_AVX2) {
-        average_avx2(weights, sample, weight, use, use_step, values, step, columns, mean);
+        average_avx2(weights, sample, weight, use, use_step, values, first, step, columns,
+                     mean);
         return;
     }
 #endif
     (void)level;
-    average_baseline(weights, sample, weight, use, use_step, values, step, columns, mean);
+    average_baseline(weights, sample, weight, use, use_step, values, first, step, columns,
+                     mean);
 }
 
 void modeler_row_means(const modeler_means *given, int level, double *means)
@@ -458,8 +477,64 @@ void modeler_row_means(const modeler_means *given, int level, double *means)
             const size_t first = (size_t)given->span[2 * j];
             average(level, weights, given->sample + start, given->weight + start,
                     used ? given->usable + j : given->whole, used ? n : 1,
-                    given->values + j * c + first, n * c, (size_t)given->span[2 * j + 1] - first,
+                    given->values + j * c + first, 0, n * c, (size_t)given->span[2 * j + 1] - first,
                     means + (row * n + j) * c + first);
         }
     }
+}
+
+/* Samples whose entries are kept besides those of a row, so that they seldom move. */
+#define SPARE 64
+
+size_t modeler_mean_work(const modeler_source *source, size_t window)
+{
+    return modeler_fused_work(source) +
+           (window + SPARE) * (size_t)source->nonzeros * sizeof(double) + 64;
+}
+
+size_t modeler_mean_triangles(const modeler_source *source, const modeler_samples *given,
+                              const modeler_means *means, size_t window, int level, double *state,
+                              size_t *rows, void *work)
+{
+    const size_t n = (size_t)source->joints, c = (size_t)source->nonzeros;
+    double *values = aligned(work);
+    const group own = divided(source, state, values + (window + SPARE) * c);
+    size_t base = 0, next = 0, left_out = 0; /* samples from base to next have their entries */
+    level = modeler_fused_level(level);
+    for (size_t row = 0; row < means->rows; row++) {
+        const size_t start = (size_t)means->start[row];
+        const size_t weights = (size_t)means->start[row + 1] - start;
+        const int *sample = means->sample + start;
+        if (weights == 0) {
+            continue;
+        }
+        const size_t low = (size_t)sample[0], high = (size_t)sample[weights - 1] + 1;
+        if (next < low) {
+            next = low;
+            base = low;
+        }
+        if (high - base > window + SPARE) {
+            memmove(values, values + (low - base) * c, (next - low) * c * sizeof *values);
+            base = low;
+        }
+        for (; next < high; next++) {
+            entries_of(source, given->q, given->qd, given->qdd, given->s, next,
+                       values + (next - base) * c);
+        }
+        for (size_t j = 0; j < n; j++) {
+            shaft *joint = own.shafts + j;
+            if (!means->used[row * n + j]) {
+                continue;
+            }
+            average(level, weights, sample, means->weight + start, means->usable + j, n,
+                    values + joint->first, base, c, (size_t)joint->entries, own.one);
+            const size_t good = append_row(level, joint, own.one, NULL, given->tau[row * n + j]);
+            rows[j] += good;
+            left_out += 1 - good;
+        }
+    }
+    for (size_t j = 0; j < n; j++) {
+        absorb(level, own.shafts + j);
+    }
+    return left_out;
 }

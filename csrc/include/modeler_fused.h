@@ -109,6 +109,19 @@ typedef struct {
 /* means: (rows, joints, columns); what lies beyond the span of a joint stays. */
 void modeler_row_means(const modeler_means *given, int level, double *means);
 
+/* Adds rows that are such means of a base regressor to a state; it is never in memory as a whole.
+ * Rows that are not used are left out; samples of rows increase, as do the first and last of them.
+ *
+ * given: the motion of the samples; tau is that of the rows, (rows, joints); no use, no weight.
+ * means: all but its columns, span, values and whole.
+ * window: samples from the first to the last of a row, at most.
+ * work: of modeler_mean_work bytes.
+ * Returns how many rows were not finite. */
+size_t modeler_mean_work(const modeler_source *source, size_t window);
+size_t modeler_mean_triangles(const modeler_source *source, const modeler_samples *given,
+                              const modeler_means *means, size_t window, int level, double *state,
+                              size_t *rows, void *work);
+
 #ifdef __cplusplus
 }
 #endif

@@ -202,10 +202,11 @@ TARGET static void OWN(spoilt)(int entries, const double *values, double lanes[M
 #define LOOSE OWN(loose)
 __extension__ typedef double LOOSE __attribute__((vector_size(8 * LANES), may_alias, aligned(8)));
 
-/* mean[k] = sum of w x[k] over the samples in use, over the sum of w; 0 without any. */
+/* mean[k] = sum of w x[k] over the samples in use, over the sum of w; 0 without any. The values
+ * are those of the samples from `first` on. */
 TARGET static void OWN(average)(size_t weights, const int *sample, const double *weight,
                                 const unsigned char *use, size_t use_step, const double *values,
-                                size_t step, size_t columns, double *mean)
+                                size_t first, size_t step, size_t columns, double *mean)
 {
     double total = 0.0;
     memset(mean, 0, columns * sizeof *mean);
@@ -214,7 +215,7 @@ TARGET static void OWN(average)(size_t weights, const int *sample, const double 
         if (!use[at * use_step]) {
             continue;
         }
-        const double w = weight[i], *x = values + at * step;
+        const double w = weight[i], *x = values + (at - first) * step;
         size_t k = 0;
         total += w;
         for (; k + LANES <= columns; k += LANES) {

@@ -198,6 +198,24 @@ class ModelRegressor:
         q, qd, qdd = motion if turn is None else (x @ turn for x in motion)
         return self._model.inverse_dynamics(q, qd, qdd, beta, self._read_signals(s, w))
 
+    def add_means(
+        self, part: FilteredSegment, torque: np.ndarray, use: np.ndarray, state: Triangles
+    ) -> Triangles:
+        """Returns triangles with the rows of a segment added; as `add_stretch`."""
+        s, model = part.segment, self._model
+        if model.has_entries:
+            motion, weights = (s.q, s.qd, s.qdd), part.rows.weights
+            return model.mean_triangles(
+                *(motion, self._signals[s], torque),
+                *((weights.data, weights.indices, weights.indptr), part.usable, use, state),
+            )
+        for rows, columns in part.iterate_blocks(
+            partial(self, s), THRESHOLDS.triangle_block_samples, self.pattern.spans
+        ):
+            used = np.ascontiguousarray(use[rows])
+            state = reduce_rows(state.pattern, columns, torque[rows], used, state)
+        return state
+
     def compute_triangles(
         self, part: FilteredSegment, use: np.ndarray, state: Triangles | None
     ) -> Triangles:
@@ -452,13 +470,7 @@ def add_stretch(
         return state
     if is_unfiltered(part):
         return regressor.compute_triangles(part, keep, state)
-    spans = regressor.pattern.spans
-    for rows, columns in part.iterate_blocks(
-        partial(regressor, part.segment), THRESHOLDS.triangle_block_samples, spans
-    ):
-        used = np.ascontiguousarray(keep[rows])
-        state = reduce_rows(state.pattern, columns, torque[rows], used, state)
-    return state
+    return regressor.add_means(part, torque, keep, state)
 
 
 def is_unfiltered(part: FilteredSegment) -> bool:

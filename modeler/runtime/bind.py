@@ -412,6 +412,19 @@ class SampleArrays(NamedTuple):
         return SampleArrays._make(None if array is None else array[block] for array in self)
 
 
+class MeanArrays(NamedTuple):
+    """Arrays of one call, C-contiguous; see `modeler_means`."""
+
+    weight: np.ndarray
+    sample: np.ndarray
+    start: np.ndarray
+    usable: np.ndarray
+    used: np.ndarray
+    whole: np.ndarray | None = None
+    span: np.ndarray | None = None
+    values: np.ndarray | None = None
+
+
 class FusedLibrary:
     """The loaded library; its functions release the interpreter lock and keep nothing."""
 
@@ -520,21 +533,58 @@ class FusedLibrary:
         )
         return int(added[0]), int(left)
 
-    def average_rows(
-        self, sizes: Sequence[int], arrays: Mapping[str, np.ndarray], level: int, out: np.ndarray
-    ) -> None:
-        """Fills weighted means of samples; see `modeler_means`.
+    def average_rows(self, means: MeanArrays, columns: int, level: int, out: np.ndarray) -> None:
+        """Fills means of samples.
 
         Args:
-            sizes: rows, joints, columns.
-            arrays: its other fields, C-contiguous.
+            means: which.
+            columns: of the values of a joint.
             level: of instructions.
             out: (rows, joints, columns).
         """
-        fields: dict[str, Any] = dict(zip(("rows", "joints", "columns"), sizes, strict=True))
-        fields |= {name: self._make_pointer(array) for name, array in arrays.items()}
-        means = self._ffi.new("modeler_means *", fields)
-        self._library.modeler_row_means(means, level, self._make_pointer(out))
+        fields = self._make_means(means, columns)
+        self._library.modeler_row_means(fields, level, self._make_pointer(out))
+
+    def add_means(
+        self,
+        rows_of_entries: np.ndarray,
+        functions: EntryFunctions,
+        samples: SampleArrays,
+        means: MeanArrays,
+        level: int,
+        state: np.ndarray,
+        rows: np.ndarray,
+    ) -> None:
+        """Adds rows that are means of samples to a state.
+
+        Args:
+            rows_of_entries: (entries,) C int, row after row.
+            functions: that evaluate the entries.
+            samples: whose torques are those of the rows.
+            means: which; at least one.
+            level: of instructions.
+            state: triangles of all joints one after another, changed.
+            rows: (joints,) of numpy.uintp, increased.
+        """
+        source = self._make_source(rows_of_entries, functions, samples.q.shape[1])
+        first, last = means.sample[means.start[:-1]], means.sample[means.start[1:] - 1]
+        window = int((last - first).max()) + 1
+        work = self._allocate_work(self._library.modeler_mean_work(source, window))
+        self._library.modeler_mean_triangles(
+            source,
+            self._make_samples(samples),
+            self._make_means(means),
+            window,
+            level,
+            self._make_pointer(state),
+            self._make_pointer(rows),
+            self._make_pointer(work),
+        )
+
+    def _make_means(self, means: MeanArrays, columns: int = 0) -> Any:
+        sizes = {"rows": len(means.used), "joints": means.used.shape[1], "columns": columns}
+        arrays = {name: self._make_pointer(array) for name, array in means._asdict().items()}
+        return self._ffi.new("modeler_means *", sizes | arrays)
 
     def _make_source(
         self, rows_of_entries: np.ndarray, functions: EntryFunctions, joints: int

@@ -20,6 +20,7 @@ from modeler.runtime.bind import (
     EntryFunctions,
     FusedLibrary,
     Library,
+    MeanArrays,
     SampleArrays,
     TileLibrary,
     check_mask,
@@ -213,8 +214,12 @@ def reduce_rows(
     return Triangles(pattern, packed, rows, np.zeros(0, dtype=bool))
 
 
+Weights = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Of all rows, their samples, and (rows + 1,) where each row's begin, as of a CSR matrix."""
+
+
 def average_rows(
-    weights: tuple[np.ndarray, np.ndarray, np.ndarray],
+    weights: Weights,
     values: np.ndarray,
     usable: np.ndarray,
     used: np.ndarray,
@@ -225,8 +230,7 @@ def average_rows(
     """Returns weighted means (rows, n, ...) of values (samples, n, ...), 0 without any sample.
 
     Args:
-        weights: of all rows, their samples, and (rows + 1,) where each row's begin, as of a CSR
-            matrix.
+        weights: of the samples in the rows.
         values: n joints.
         usable: (samples, n) bool, which samples a row that is used averages.
         used: (rows, n) bool.
@@ -235,16 +239,25 @@ def average_rows(
         level: of instructions; 0: the best of this processor.
     """
     values = np.ascontiguousarray(values, dtype=float)
-    sizes = *used.shape, int(np.prod(values.shape[2:], dtype=int))
-    ends = [(0, sizes[2])] * sizes[1] if spans is None else [(s.start or 0, s.stop) for s in spans]
-    numbers = dict(zip(("sample", "start", "span"), (*weights[1:], ends), strict=True))
-    flags = {"usable": usable, "whole": whole, "used": used}
-    arrays = {name: np.ascontiguousarray(x, np.intc) for name, x in numbers.items()}
-    arrays |= {name: np.ascontiguousarray(x, bool) for name, x in flags.items()}
-    out = np.zeros((len(used), *values.shape[1:]))
-    library = bind.load_fused_library()
-    library.average_rows(sizes, arrays | {"weight": weights[0], "values": values}, level, out)
+    out, columns = (
+        np.zeros((len(used), *values.shape[1:])),
+        int(np.prod(values.shape[2:], dtype=int)),
+    )
+    ends = (
+        [(0, columns)] * used.shape[1] if spans is None else [(s.start or 0, s.stop) for s in spans]
+    )
+    means = _prepare_means(weights, usable, used)._replace(
+        whole=np.ascontiguousarray(whole), span=np.array(ends, dtype=np.intc), values=values
+    )
+    bind.load_fused_library().average_rows(means, columns, level, out)
     return out
+
+
+def _prepare_means(weights: Weights, usable: np.ndarray, used: np.ndarray) -> MeanArrays:
+    weight, *numbers = weights
+    integers = (np.ascontiguousarray(array, np.intc) for array in numbers)
+    flags = (np.ascontiguousarray(array, bool) for array in (usable, used))
+    return MeanArrays(weight, *integers, *flags)
 
 
 def _merge_blocks(
@@ -452,7 +465,7 @@ class BatchEvaluator:
                     f"({len(pattern.columns)} joints, {width} base parameters)"
                 )
         samples = self._check_measurements((q, qd, qdd, tau), use, s, weight)
-        if self.spec.closure is None and self.spec.precision == "double":
+        if self.has_entries:
             functions = self._get_entry_functions(len(samples.q))
             return reduce_samples(pattern, functions, samples, state)
         function = self._functions["base_regressor"]
@@ -467,6 +480,43 @@ class BatchEvaluator:
             return out, status != 0
 
         return reduce_dense_samples(pattern, evaluate_block, samples, state)
+
+    def mean_triangles(
+        self,
+        motion: tuple[np.ndarray, np.ndarray, np.ndarray],
+        s: np.ndarray | None,
+        torque: np.ndarray,
+        weights: Weights,
+        usable: np.ndarray,
+        used: np.ndarray,
+        state: Triangles,
+    ) -> Triangles:
+        """Returns triangles with rows added that are means of those of samples, as `average_rows`.
+
+        Only of a robot that `has_entries`.
+
+        Args:
+            motion: q, qd, qdd of the samples.
+            s: signals of effects, where there are any.
+            torque: (rows, n) of the rows.
+            weights: of the samples in the rows.
+            usable: (samples, n) bool.
+            used: (rows, n) bool, which rows are added.
+            state: before.
+        """
+        packed, rows = state.packed.copy(), state.rows.copy()
+        arrays = [np.ascontiguousarray(x, dtype=float) for x in (*motion, torque)]
+        samples = SampleArrays(*arrays, self._check_signals(s, len(arrays[0])), None, None)
+        pattern, means = state.pattern, _prepare_means(weights, usable, used)
+        functions = self._get_entry_functions(0)
+        library = bind.load_fused_library()
+        library.add_means(pattern.rows_of_entries, functions, samples, means, 0, packed, rows)
+        return Triangles(pattern, packed, rows, np.zeros(0, dtype=bool))
+
+    @property
+    def has_entries(self) -> bool:
+        """Returns True if a function evaluates the entries of its regressor that are not 0."""
+        return self.spec.closure is None and self.spec.precision == "double"
 
     def _check_measurements(
         self, motion: tuple[Any, Any, Any, Any], use: Any, s: Any, weight: Any

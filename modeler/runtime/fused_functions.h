@@ -30,3 +30,6 @@ void modeler_fused_merge(const modeler_source *, int, double *, const double *, 
 size_t modeler_rows_work(int);
 size_t modeler_rows_triangle(const modeler_rows *, int, double *, size_t *, void *);
 void modeler_row_means(const modeler_means *, int, double *);
+size_t modeler_mean_work(const modeler_source *, size_t);
+size_t modeler_mean_triangles(const modeler_source *, const modeler_samples *,
+                              const modeler_means *, size_t, int, double *, size_t *, void *);

@@ -141,6 +141,30 @@ def test_rows_are_means_over_the_samples_that_they_may_use():
         np.testing.assert_allclose(means, expected, rtol=1e-12, atol=1e-13)
 
 
+@pytest.mark.parametrize("spacing", [1, 7, 90])
+def test_rows_that_are_means_are_added_without_the_regressor(spacing):
+    """Also where rows have no sample in common, so that some samples are never evaluated."""
+    model, q, qd, qdd, _ = drawn(1200, 5)
+    random, joints = np.random.default_rng(6), q.shape[1]
+    rows = build_row_filter(np.arange(40, 1200, spacing), 1200, 0.01, 3.0)
+    weights = rows.weights.data, rows.weights.indices, rows.weights.indptr
+    usable = random.random(q.shape) > 0.4
+    used = random.random((len(rows.centres), joints)) > 0.3
+    torque = random.normal(size=used.shape)
+    torque[3, 1] = np.nan
+    used[3, 1] = True
+    before = model.triangles(q[:50], qd[:50], qdd[:50], qdd[:50])
+    after = model.mean_triangles((q, qd, qdd), None, torque, weights, usable, used, before)
+    phi, whole = model.base_regressor(q, qd, qdd), np.zeros(1200, dtype=bool)
+    means = fused.average_rows(weights, phi, usable, used, whole)
+    used[3, 1] = False
+    assert (after.rows == 50 + used.sum(axis=0)).all()
+    added = np.concatenate([means, torque[:, :, None]], axis=2)
+    first = stacked(model, q[:50], qd[:50], qdd[:50], qdd[:50])
+    parts = [np.concatenate([first[j], added[used[:, j], j]]) for j in range(joints)]
+    check(after.triangles, parts)
+
+
 def test_threads_and_blocks_give_the_same_bits(monkeypatch):
     wrist, q, qd, qdd, tau = drawn(5 * 64 + 3, 7)
     monkeypatch.setattr(fused, "BLOCK", 64)

@@ -163,6 +163,37 @@ static void check_rows(int level)
     free(triangle), free(work);
 }
 
+/* Rows whose weight is on their first sample: as that sample, but for 400, which is no number. */
+static void check_means(const modeler_source *source, int level)
+{
+    enum { WINDOW = 40 };
+    static const double weights[WINDOW] = {1.0};
+    const modeler_samples given = {q, qd, qdd, s, tau, NULL, NULL};
+    int *start = malloc((SAMPLES + 1) * sizeof *start), count = 0;
+    int *sample = malloc(SAMPLES * WINDOW * sizeof *sample);
+    double *weight_of = malloc(SAMPLES * WINDOW * sizeof *weight_of);
+    double *state = calloc(modeler_fused_state(source), sizeof *state);
+    unsigned char usable[SAMPLES * JOINTS], used[SAMPLES * JOINTS];
+    size_t rows[JOINTS] = {0};
+    void *work = malloc(modeler_mean_work(source, WINDOW));
+    memset(usable, 1, sizeof usable), memset(usable + 400 * JOINTS, 0, JOINTS);
+    memcpy(used, use, sizeof used), memset(used + 400 * JOINTS, 0, JOINTS);
+    for (int i = 0; i < SAMPLES; i++) {
+        start[i] = count;
+        for (int k = 0; k < WINDOW && i + k < SAMPLES; k++) {
+            weight_of[count] = weights[k];
+            sample[count++] = i + k;
+        }
+    }
+    start[SAMPLES] = count;
+    const modeler_means means = {SAMPLES,   JOINTS, 0,      start, sample, NULL,
+                                 weight_of, NULL,   usable, NULL,  used};
+    require(modeler_mean_triangles(source, &given, &means, WINDOW, level, state, rows, work) == 0,
+            "means left out");
+    check_state(source, state, 0);
+    free(start), free(sample), free(weight_of), free(state), free(work);
+}
+
 static void *all(void *level)
 {
     for (int weighted = 0; weighted < 2; weighted++) {
@@ -171,6 +202,8 @@ static void *all(void *level)
         check(&tiled, *(int *)level, weighted);
     }
     check_rows(*(int *)level);
+    check_means(&plain, *(int *)level);
+    check_means(&reads, *(int *)level);
     return NULL;
 }
 
