@@ -7,18 +7,17 @@ of drives that take gravity out has g = 0, a table with a wrong sign -g, a base 
 direction. Where positions close loops, a factor of the stated gravity is all that is requested.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.sparse import block_diag, csr_array, diags_array
+from scipy.sparse import block_diag, csr_array
 
 from modeler import regression
 from modeler.estimation.physical_consistency import PhysicalParameters, define_physical_parameters
 from modeler.estimation.thresholds import THRESHOLDS
-from modeler.numerics.filters import restrict_weights
-from modeler.runtime import CompiledModel
+from modeler.runtime import CompiledModel, average_rows
 
 _CLOCKS = (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # are off by
 
@@ -31,7 +30,8 @@ class ThinnedRows:
         W: (m, n, c).
         tau: (m, n).
         used: (m, n) that count.
-        means: by joint, (m, samples) weights of the samples in each row; they sum to one.
+        weights: (m, samples) of the samples in each row.
+        usable: (samples, n) which samples count for a joint.
         samples: by segment, its segment and places in it.
         read: (samples, k) other inputs of the model; None without any.
     """
@@ -39,7 +39,8 @@ class ThinnedRows:
     W: np.ndarray
     tau: np.ndarray
     used: np.ndarray
-    means: tuple[csr_array, ...]
+    weights: csr_array
+    usable: np.ndarray
     samples: tuple[tuple[regression.Segment, np.ndarray], ...]
     read: np.ndarray | None
 
@@ -51,7 +52,12 @@ class ThinnedRows:
 
     def filter_values(self, values: np.ndarray) -> np.ndarray:
         """Returns (m, n, k) rows of what the samples have, (samples, n, k)."""
-        return np.stack([mean @ values[:, j] for j, mean in enumerate(self.means)], axis=1)
+        return self._average_rows(values)
+
+    def _average_rows(self, values: np.ndarray, spans: Sequence[slice] | None = None) -> np.ndarray:
+        weights = self.weights.data, self.weights.indices, self.weights.indptr
+        every, none = np.ones(self.used.shape, dtype=bool), np.zeros(len(values), dtype=bool)
+        return average_rows(weights, values, self.usable, every, none, spans)
 
     def transform_columns(self, compiled: CompiledModel, how: "MotionTransform") -> np.ndarray:
         """Returns (m, n, c) columns of the motion with other positions, or by another clock."""
@@ -92,12 +98,7 @@ class ThinnedRows:
         if nearest is not None:
             q = np.ascontiguousarray(q[nearest])
         values = of(q, qd, qdd, self.read)
-        out = np.zeros((self.means[0].shape[0], *values.shape[1:]))
-        for j, mean in enumerate(self.means):
-            span = (compiled.pattern.spans[j],) if values.ndim == 3 else ()
-            index = (slice(None), j, *span)
-            out[index] = mean @ values[index]
-        return out
+        return self._average_rows(values, compiled.pattern.spans if values.ndim == 3 else None)
 
 
 def thin_rows(compiled: CompiledModel, observation: regression.Observation) -> ThinnedRows:
@@ -105,7 +106,7 @@ def thin_rows(compiled: CompiledModel, observation: regression.Observation) -> T
     cells = THRESHOLDS.max_thinned_cells // len(observation.joints)
     most = max(1, min(THRESHOLDS.max_thinned_rows, cells))
     every = max(1, -(-len(observation.time) // most))
-    means: list[list[csr_array]] = [[] for _ in observation.joints]
+    kernels, usable = list[csr_array](), list[np.ndarray]()
     samples, read, chosen, at = [], [], [], 0
     for part in observation.stretches:
         rows = np.arange(-at % every, len(part.used), every)
@@ -117,11 +118,8 @@ def thin_rows(compiled: CompiledModel, observation: regression.Observation) -> T
         width = max(1, int(np.max(np.diff(weights.indptr))))
         reached = np.unique(weights.indices)
         reached = reached[reached % max(1, width // THRESHOLDS.filter_taps) == 0]
-        weights = weights[:, reached]
-        for joint_means, usable in zip(means, part.usable[reached].T, strict=True):
-            masked = restrict_weights(weights, usable)
-            total = masked.sum(axis=1)
-            joint_means.append(diags_array(1.0 / np.where(total > 0.0, total, 1.0)) @ masked)
+        kernels.append(weights[:, reached])
+        usable.append(part.usable[reached])
         samples.append((part.segment, reached))
         signals = regression.compute_signals(compiled, part.segment)
         read += [] if signals is None else [signals[reached]]
@@ -130,7 +128,8 @@ def thin_rows(compiled: CompiledModel, observation: regression.Observation) -> T
         W=regression.evaluate_columns_at(observation, place),
         tau=observation.torque[place],
         used=observation.used[place],
-        means=tuple(block_diag(joint_means, format="csr") for joint_means in means),
+        weights=block_diag(kernels, format="csr"),
+        usable=np.concatenate(usable),
         samples=tuple(samples),
         read=np.concatenate(read) if read else None,
     )

@@ -48,8 +48,8 @@ def observe(
         DataError: no logs, of another robot, or no usable row.
         LoopError: hardly a sample closes the loops.
     """
-    asked = choose_repairs(model, logs, processing or Processing())
     repair = prepare.LogRepair(logs, model.spec)
+    asked = choose_repairs(model, logs, processing or Processing(), repair)
     prepared = prepare.prepare_logs(model.spec, logs, asked, repair)
     return build_observation(model, logs, choose_filters(model, logs, prepared, asked, repair))
 

@@ -19,7 +19,12 @@ SEVERAL = ("held", "lost")
 """Kinds that befall several joints alike: one hypothesis."""
 
 
-def choose_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing) -> Processing:
+def choose_repairs(
+    model: CompiledModel,
+    logs: Sequence[Log],
+    asked: Processing,
+    repair: prepare.LogRepair | None = None,
+) -> Processing:
     """Returns the processing with the score of every repair; what is known already stays.
 
     A repair is a hypothesis. Its score is the error out of block of a weighted fit to the log that
@@ -30,11 +35,12 @@ def choose_repairs(model: CompiledModel, logs: Sequence[Log], asked: Processing)
         model: the compiled robot.
         logs: read with it.
         asked: processing of them.
+        repair: of the same logs, where it is shared.
     """
     prepare.check_logs(model.spec, logs, asked)
     if asked.repairs is not None or asked.keep_damaged:
         return asked
-    repair = prepare.LogRepair(logs, model.spec)
+    repair = repair or prepare.LogRepair(logs, model.spec)
     open_ = [
         (log, tried)
         for run, log in enumerate(logs)

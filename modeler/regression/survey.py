@@ -160,9 +160,10 @@ def choose_from_windows(
     logs = [join_windows(log_windows) if log_windows else None for log_windows in windows]
     seen = [log for log in logs if log is not None]
     try:
-        processing = choose_repairs(model, seen, processing)
-        prepared = prepare.prepare_logs(model.spec, seen, processing)
-        filtered = choose_filters(model, seen, prepared, processing)
+        repair = prepare.LogRepair(seen, model.spec)
+        processing = choose_repairs(model, seen, processing, repair)
+        prepared = prepare.prepare_logs(model.spec, seen, processing, repair)
+        filtered = choose_filters(model, seen, prepared, processing, repair)
         observation = build_observation(model, seen, filtered)
     except (DataError, LoopError) as error:  # what is wrong here may be right elsewhere
         where = f"the {sum(len(log_windows) for log_windows in windows)} windows"
