@@ -322,11 +322,11 @@ def split_log(
 
 
 def _build_piece(
-    log: Log, run: int, rows: np.ndarray | slice, clipped: np.ndarray, logged_motion: bool
+    log: Log, run: int, places: np.ndarray, clipped: np.ndarray, logged_motion: bool
 ) -> RawSegment:
-    measured = log.time[rows]
-    if rows[-1] - rows[0] == len(rows) - 1:
-        rows = slice(rows[0], rows[-1] + 1)  # views, where no row is left out
+    measured, first, last = log.time[places], int(places[0]), int(places[-1])
+    is_whole = last - first == len(places) - 1
+    rows = slice(first, last + 1) if is_whole else places  # views, where no row is left out
     samples = max(THRESHOLDS.min_piece_rows, round((measured[-1] - measured[0]) / log.step) + 1)
     time = np.linspace(measured[0], measured[-1], samples)
     step = float(measured[-1] - measured[0]) / (samples - 1)  # of large times, two are too coarse

@@ -205,9 +205,9 @@ class ModelRegressor:
         s, model = part.segment, self._model
         if model.has_entries:
             motion, weights = (s.q, s.qd, s.qdd), part.rows.weights
+            kernels = weights.data, weights.indices, weights.indptr
             return model.mean_triangles(
-                *(motion, self._signals[s], torque),
-                *((weights.data, weights.indices, weights.indptr), part.usable, use, state),
+                motion, self._signals[s], torque, kernels, part.usable, use, state
             )
         for rows, columns in part.iterate_blocks(
             partial(self, s), THRESHOLDS.triangle_block_samples, self.pattern.spans

@@ -195,9 +195,11 @@ def clear_resting_speeds(
         parts: shafts; those of several joints are left as they are.
         still: names of those that move in no log.
     """
+    if not segments:
+        return ()
     turned = {part.name: np.flatnonzero(part.coefficients) for part in parts}
     ends = [(s.run, np.stack([s.q.min(axis=0), s.q.max(axis=0)])) for s in segments]
-    whole = np.ptp(np.concatenate([ends_of for _, ends_of in ends]), axis=0) if ends else 0.0
+    whole = np.ptp(np.concatenate([ends_of for _, ends_of in ends]), axis=0)
     cleared_segments = []
     for segment in segments:
         logged = [ends_of for run, ends_of in ends if run == segment.run]

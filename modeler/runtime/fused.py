@@ -505,8 +505,8 @@ class BatchEvaluator:
             state: before.
         """
         packed, rows = state.packed.copy(), state.rows.copy()
-        arrays = [np.ascontiguousarray(x, dtype=float) for x in (*motion, torque)]
-        samples = SampleArrays(*arrays, self._check_signals(s, len(arrays[0])), None, None)
+        q, qd, qdd, tau = (np.ascontiguousarray(x, dtype=float) for x in (*motion, torque))
+        samples = SampleArrays(q, qd, qdd, tau, self._check_signals(s, len(q)), None, None)
         pattern, means = state.pattern, _prepare_means(weights, usable, used)
         functions = self._get_entry_functions(0)
         library = bind.load_fused_library()
