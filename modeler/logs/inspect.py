@@ -27,7 +27,7 @@ from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LENGTH, LogMap, find_unit, parse_unit
 from modeler.logs.rates import check_rates, describe_repeats, is_moving, is_on_grid
 from modeler.logs.thresholds import THRESHOLDS
-from modeler.numerics.noise import estimate_hold_length, estimate_lattice_step, find_repeated_rows
+from modeler.numerics.channels import ChannelModel, find_repeated_rows, model_channel
 
 GAP = 1.5  # of a usual step
 HELD = 3  # rows in a row at the extreme value that make it a limit
@@ -86,12 +86,13 @@ class Channel(Document):
         low, high: of the values, in that unit; NaN without any.
         missing_rows: rows without value.
         resolution: smallest step between values, 0 if there is no grid.
+        held_rows: rows for which each value is held; 1 if it is sampled at every row.
         limits: values at which it stays, with the share of rows: saturation.
         is_constant: True if it never changes.
     """
 
     KEYS = """
-        name unit is_unit_guessed low high missing_rows resolution=known_resolution limits
+        name unit is_unit_guessed low high missing_rows resolution=known_resolution held_rows limits
         is_constant
     """
 
@@ -102,6 +103,7 @@ class Channel(Document):
     high: float
     missing_rows: int
     resolution: float
+    held_rows: int
     limits: tuple[tuple[float, float], ...]
     is_constant: bool
 
@@ -210,8 +212,9 @@ def inspect_table(
     time, clock = _measure_clock(table, values, guesses)
     shown = {name: table.convert_to_unit(name, v) for name, v in values.items()}
     rows, clock, extents, drawn = _scan_rows(table, blocks, guesses, clock, every is None)
+    models = {name: model_channel(time, v) for name, v in shown.items()}
     channels = []
-    for name, v in shown.items():
+    for name in shown:
         stated, missing = table.get_unit(name), sum(extent.missing for extent in extents[name])
         ends = np.stack([extent.ends for extent in extents[name]])
         held = np.stack([extent.held for extent in extents[name]])
@@ -225,7 +228,8 @@ def inspect_table(
                 low=low,
                 high=high,
                 missing_rows=missing,
-                resolution=estimate_lattice_step(v),
+                resolution=models[name].step,
+                held_rows=models[name].hold,
                 limits=limits,
                 is_constant=low == high,
             )
@@ -242,7 +246,7 @@ def inspect_table(
     doubts += describe_doubtful_degrees(guesses, values)
     rest = {speed for position, speed in pairs if not is_moving(values[position])}
     doubts += check_rates(pairs, values, time)
-    doubts += _find_repeats(guesses, values, rows, clock, table.format_name)
+    doubts += _find_repeats(guesses, values, models, rows, clock, table.format_name)
     constant = ((c, name) for c, name in zip(channels, shown, strict=True) if c.is_constant)
     still = [c.name for c, name in constant if not (name in rest and c.low == 0.0)]
     if still:
@@ -298,6 +302,7 @@ def _build_positions(
 def _find_repeats(
     guesses: Sequence[Guess],
     values: Mapping[str, np.ndarray],
+    models: Mapping[str, ChannelModel],
     rows: int,
     clock: Clock | None,
     called: Callable[[str], str],
@@ -317,12 +322,12 @@ def _find_repeats(
     held: dict[int, list[str]] = {}
     for one in guesses:
         for name in one.columns if one.quantity in _MEASURED else ():
-            held.setdefault(estimate_hold_length(values[name][~again]), []).append(called(name))
-    rate = clock.rate * (1.0 - float(again.mean()))
-    return [describe_repeats(count, rows, clock.rate)] * bool(count) + [
-        f"{', '.join(names)}: holds each value for {entry} rows: sampled at {rate / entry:.3g} "
-        "Hz, not "
-        f"{rate:.4g} Hz"
+            held.setdefault(models[name].hold, []).append(called(name))
+    if count:
+        return [describe_repeats(count, rows, clock.rate)]
+    return [
+        f"{', '.join(names)}: holds each value for {entry} rows: sampled at "
+        f"{clock.rate / entry:.3g} Hz, not {clock.rate:.4g} Hz"
         for entry, names in held.items()
         if entry > 1
     ]

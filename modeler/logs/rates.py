@@ -8,7 +8,7 @@ import numpy as np
 
 from modeler.core.table import format_percent
 from modeler.logs.thresholds import THRESHOLDS
-from modeler.numerics.noise import estimate_channel_noise
+from modeler.numerics.channels import estimate_channel_noise, model_channel
 
 RATES: Mapping[str, float] = {
     "rad/s": 1.0,
@@ -53,20 +53,24 @@ def compare_slopes(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Returns slopes of a position over windows, and means of a speed over the same; (m,) each.
 
-    The windows are as short as resolution and noise of both let a slope be seen.
+    The windows are as short as resolution and noise of both let a slope be seen, and longer than
+    the slower of them holds a value.
     """
     there = np.flatnonzero(np.isfinite(time) & np.isfinite(position) & np.isfinite(speed))
     there = there[np.diff(np.maximum.accumulate(time[there]), prepend=-np.inf) > 0.0]
     t, q, v = time[there], position[there], speed[there]
     if len(t) < THRESHOLDS.min_compared_rows:
         return np.zeros(0), np.zeros(0)
-    noise = [estimate_channel_noise(x) for x in (q, v)]
+    models = [model_channel(t, x) for x in (q, v)]
     area = np.append(0.0, np.cumsum(0.5 * np.diff(t) * (v[1:] + v[:-1])))
     for rows in (2, 4, 8, 16, 32, 64):
         long = t[rows:] - t[:-rows]
         slope, mean = ((x[rows:] - x[:-rows]) / long for x in (q, area))
-        doubtful = noise[0] * np.sqrt(2.0) / np.median(long) + noise[1] / np.sqrt(rows)
-        if doubtful < THRESHOLDS.max_slope_noise * np.std(slope) or 4 * rows > len(t):
+        doubtful = models[0].noise * np.sqrt(2.0) / np.median(long) + models[1].noise / np.sqrt(
+            rows
+        )
+        whole = rows > THRESHOLDS.min_window_holds * max(one.hold - 1 for one in models)
+        if (whole and doubtful < THRESHOLDS.max_slope_noise * np.std(slope)) or 4 * rows > len(t):
             break
     near = long < THRESHOLDS.max_window_ratio * np.median(long)  # not across gaps
     return slope[near], mean[near]

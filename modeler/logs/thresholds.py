@@ -91,6 +91,8 @@ class Thresholds:
     """Rows by which a speed is compared."""
     max_slope_noise: float = 0.1
     """Of the spread of the slopes: their noise in windows that are long enough. No study."""
+    min_window_holds: float = 2.0
+    """Windows over what the slower channel holds a value for. No study."""
     max_window_ratio: float = 3.0
     """Usual windows: a longer one lies across a gap. No study."""
     # readers

@@ -8,13 +8,9 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.logs import describe_clock_factor, find_common_factor, is_derivative, is_moving
+from modeler.numerics.channels import estimate_channel_noise
 from modeler.numerics.least_squares import compute_weighted_median
-from modeler.numerics.noise import (
-    estimate_channel_noise,
-    estimate_lattice_step,
-    estimate_robust_deviation,
-    estimate_white_noise,
-)
+from modeler.numerics.noise import estimate_robust_deviation, estimate_white_noise
 from modeler.regression.log import Log, RawSegment
 from modeler.regression.thresholds import THRESHOLDS
 
@@ -299,13 +295,14 @@ def check_derivatives(
     contradictions: list[Contradiction] = []
     late: list[DerivativeDelay] = []
     levels: tuple[tuple[Column, str], ...] = (("qd", "q"), ("qdd", "qd"))
+    models = log.model_channels()
     for column, lower in levels:
         if not pieces or getattr(pieces[0], column) is None:
             break
         found_late, delay = estimate_delays(pieces, log.joints, column, lower, parallel_cutoff)
         late += found_late
         windows = [build_windows(piece, column, lower, parallel_cutoff, delay) for piece in pieces]
-        steps = np.array([estimate_lattice_step(values) for values in getattr(log, lower).T])
+        steps = np.array([one.step for one in models[lower]])
         if refuse:
             noise = [list(map(estimate_white_noise, getattr(piece, lower).T)) for piece in pieces]
             noises = np.maximum(steps, np.median(noise, axis=0))
@@ -432,9 +429,8 @@ def is_position_quieter(pieces: Sequence[RawSegment], cutoff: float) -> bool:
         logged.append([estimate_channel_noise(column) for column in piece.qd.T])
     if not logged:
         return False
-    q = np.concatenate([piece.q for piece in pieces])
-    moves = np.ptp(q, axis=0) > THRESHOLDS.contradiction_steps * np.array(
-        [estimate_lattice_step(column) for column in q.T]
-    )
+    travel = np.ptp(np.concatenate([piece.q for piece in pieces]), axis=0)
+    steps = np.max([piece.q_step or np.zeros_like(travel) for piece in pieces], axis=0)
+    moves = travel > THRESHOLDS.contradiction_steps * steps
     noisier = np.median(logged, axis=0) > THRESHOLDS.max_noise_ratio * np.median(moved, axis=0)
     return bool(moves.any() and np.mean(noisier[moves]) > 0.5)

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.ndimage import maximum_filter
 
 from modeler.numerics import noise
+from modeler.numerics.channels import ChannelModel
 from modeler.regression.thresholds import THRESHOLDS
 
 Kind = Literal["wrap", "spike", "frozen", "zero", "lost", "clipped", "repeated", "held"]
@@ -39,48 +40,29 @@ Spikes = list[list[list[Defect]]]
 """By joint and segment."""
 
 
-def find_spikes(
-    stretches: Sequence[np.ndarray], floors: np.ndarray | None = None
-) -> tuple[Spikes, np.ndarray | None]:
+def find_spikes(stretches: Sequence[np.ndarray], models: Sequence[ChannelModel]) -> Spikes:
     """Returns the lone departures of channels from their running median, in runs of up to 3.
 
-    Runs are gone as they came; what stays is a step, and no spike.
+    Runs are gone as they came; what stays is a step, and no spike. What happens again and again is
+    no lone value.
 
     Args:
         stretches: (n, J) of values without gaps.
-        floors: (J,) of the whole log, of which these are a part; None: they are all of it.
-
-    Returns:
-        The spikes, and departures (J,) below which no value is one; None without segments.
+        models: of the J channels.
     """
-    if not stretches:
-        return [], floors
-    channels = [[part[:, j] for part in stretches] for j in range(stretches[0].shape[1])]
-    if floors is not None and not any(
-        noise.can_depart(part, floor)
-        for channel, floor in zip(channels, floors, strict=True)
-        for part in channel
-    ):
-        return [[[] for _ in channel] for channel in channels], floors
-    departed = [[noise.subtract_running_median(part) for part in channel] for channel in channels]
-    if floors is None:
-        floors = np.array(list(map(_compute_floor, channels, departed)))
-    spikes = []
-    for channel, sizes, floor in zip(channels, departed, floors, strict=True):
-        here = noise.compute_local_threshold(sizes, float(floor), THRESHOLDS.max_spike_rate)
-        pairs = zip(channel, sizes, strict=True)
-        spikes.append([_find_lone_runs(values, part, here) for values, part in pairs])
-    return spikes, floors
-
-
-def _compute_floor(channel: Sequence[np.ndarray], departed: Sequence[np.ndarray]) -> float:
-    """Returns departure below which no value of a whole channel is a spike."""
-    whole = np.concatenate(channel)
-    low, high = np.quantile(whole, [0.01, 0.99])
-    lonely = noise.compute_outlier_threshold(
-        np.concatenate(departed), noise.estimate_lattice_step(whole), THRESHOLDS.max_spike_rate
-    )
-    return max(lonely, THRESHOLDS.min_spike_share * float(high - low))
+    spikes: Spikes = []
+    for j, model in enumerate(models):
+        floor = max(THRESHOLDS.min_spike_share * model.spread, model.resolution)
+        values = [part[:, j] for part in stretches]
+        departed = [noise.subtract_running_median(part) for part in values]
+        beyond = sum(np.count_nonzero(np.abs(part) > floor) for part in departed)
+        most = max(THRESHOLDS.max_spikes, THRESHOLDS.max_spike_rate * sum(map(len, values)))
+        if beyond > most:
+            spikes.append([[] for _ in stretches])
+        else:
+            pairs = zip(values, departed, strict=True)
+            spikes.append([_find_lone_runs(*pair, floor) for pair in pairs])
+    return spikes
 
 
 def _find_lone_runs(values: np.ndarray, departed: np.ndarray, floor: float) -> list[Defect]:
@@ -96,60 +78,31 @@ def _find_lone_runs(values: np.ndarray, departed: np.ndarray, floor: float) -> l
     return spikes
 
 
-@dataclass(frozen=True, eq=False)
-class TorqueScales:
-    """What is usual in the torques and speeds of a log; J joints.
-
-    Attributes:
-        range: (J,) of the torques, between 1 % and 99 % of their values.
-        top: (J,) speed that 98 % of the samples stay below.
-    """
-
-    range: np.ndarray
-    top: np.ndarray
-
-
-def compute_torque_scales(
-    torques: Sequence[np.ndarray], speeds: Sequence[np.ndarray]
-) -> TorqueScales:
-    """Returns the scales of the segments (n, J) of a whole log, one at least."""
-    low, high = np.quantile(np.concatenate(torques), [0.01, 0.99], axis=0)
-    return TorqueScales(high - low, np.quantile(np.abs(np.concatenate(speeds)), 0.98, axis=0))
-
-
 def select_unexplained(
-    spikes_by_joint: Spikes,
-    torques: Sequence[np.ndarray],
-    speeds: Sequence[np.ndarray],
-    scales: TorqueScales,
+    spikes_by_joint: Spikes, torques: Sequence[np.ndarray], speeds: Sequence[np.ndarray]
 ) -> Spikes:
     """Returns the spikes of torques that no motion and no impact explains.
 
-    A torque that is real moves its joint, and an impact shows in several joints. Where a joint
-    turns back or sticks, friction makes peaks of its own, which stay within the range of the
-    channel (1 % to 99 % of its values).
+    A torque that is real moves its joint, and an impact shows in several joints.
 
     Args:
         spikes_by_joint: by `find_spikes` of the torques.
         torques: (n, J) by segment; a joint without a measured torque is all 0.
         speeds: (n, J) by segment.
-        scales: in the whole log.
     """
     if not any(spikes for by_joint in spikes_by_joint for spikes in by_joint):
         return spikes_by_joint
     departed = ([noise.subtract_running_median(column) for column in tau.T] for tau in torques)
     sizes = [np.abs(np.column_stack(columns)) for columns in departed]
-    slow = THRESHOLDS.slow_speed_share * scales.top
-
-    def is_unexplained(spike: Defect, j: int, size: np.ndarray, speed: np.ndarray) -> bool:
-        if _is_impact(size, j, spike) or _is_corroborated(speed, spike):
-            return False
-        return abs(spike.size) > scales.range[j] or _is_moving(speed, spike, slow[j])
-
     every: Spikes = []
     for j, by_stretch in enumerate(spikes_by_joint):
-        each = zip(by_stretch, sizes, (speed[:, j] for speed in speeds), strict=True)
-        every.append([[s for s in spikes if is_unexplained(s, j, *x)] for spikes, *x in each])
+        each = zip(by_stretch, sizes, speeds, strict=True)
+        every.append(
+            [
+                [s for s in spikes if not _is_impact(x, j, s) and not _is_corroborated(v[:, j], s)]
+                for spikes, x, v in each
+            ]
+        )
     return every
 
 
@@ -188,13 +141,6 @@ def _is_corroborated(speed: np.ndarray, spike: Defect) -> bool:
     )
 
 
-def _is_moving(speed: np.ndarray, spike: Defect, least: float) -> bool:
-    """Returns True if a joint moves one way, and not slowly, around a spike."""
-    count = THRESHOLDS.impact_samples
-    around = speed[max(0, spike.start - count) : spike.stop + count]
-    return bool(np.min(around) > least or np.max(around) < -least)
-
-
 # Positions that leap from one sample to the next, as no joint can: wraps, spikes, new zeros.
 
 
@@ -221,11 +167,7 @@ class EncoderJumpScan:
 
 
 def scan_jumps(
-    time: np.ndarray,
-    q: np.ndarray,
-    revolute: np.ndarray,
-    resolution: np.ndarray,
-    logged: np.ndarray,
+    time: np.ndarray, q: np.ndarray, revolute: np.ndarray, logged: np.ndarray
 ) -> EncoderJumpScan:
     """Returns the steps of one segment without gaps.
 
@@ -233,7 +175,6 @@ def scan_jumps(
         time: (n,) s, more than `LEAST`: a shorter one does not show.
         q: (n, J) rad or m, all finite.
         revolute: (J,) joints that may wrap.
-        resolution: (J,) smallest step of each.
         logged: (n, J) speeds; 0 where there are none.
     """
     steps, dt = np.diff(q, axis=0), np.diff(time)
@@ -243,7 +184,7 @@ def scan_jumps(
         speed[:, j] = noise.compute_running_median(steps[:, j] / dt)
         excess[:, j] = _compute_excess(steps[:, j], speed[:, j], dt, usual)
         if revolute[j]:
-            turns[:, j] = _find_whole_turns(excess[:, j], resolution[j])
+            turns[:, j] = _find_whole_turns(excess[:, j])
             if turns[:, j].any():
                 whole = steps[:, j] - _TURN * turns[:, j]
                 speed[:, j] = noise.compute_running_median(whole / dt)
@@ -254,41 +195,6 @@ def scan_jumps(
     beside[THRESHOLDS.jerk_samples] = False
     fastest = maximum_filter(speeds, footprint=beside, mode="nearest")
     return EncoderJumpScan(q, turns, speed, excess, fastest)
-
-
-def can_leap(time: np.ndarray, q: np.ndarray, floors: np.ndarray) -> bool:
-    """Returns False if `scan_jumps` of a segment has no excess above floors (J,), and no turn."""
-    dt = np.diff(time)
-    least = np.minimum(floors, 0.4 * _TURN) / dt.max()
-    slopes = np.diff(q.T) / dt
-    return any(noise.can_depart(*pair) for pair in zip(slopes, least, strict=True))
-
-
-def compute_jump_floors(walks: Sequence[EncoderJumpScan], resolution: np.ndarray) -> np.ndarray:
-    """Returns (J,) rad or m that a step must have too much to be a jump, over all segments.
-
-    What is lone, and more than the step that the joint makes at its top speed: a smaller leap is
-    no more than a sample too late or too early.
-    """
-    if not walks:
-        return np.full(len(resolution), np.inf)
-    excess = np.concatenate([walk.excess for walk in walks])
-    steps = np.concatenate([np.diff(walk.q, axis=0) - _TURN * walk.turns for walk in walks])
-    top = np.quantile(np.abs(steps), THRESHOLDS.top_speed_quantile, axis=0)
-    lonely = [
-        noise.compute_outlier_threshold(joint_excess, one, THRESHOLDS.max_jump_share)
-        for joint_excess, one in zip(excess.T, resolution, strict=True)
-    ]
-    return np.maximum(lonely, top)
-
-
-def compute_local_floors(walks: Sequence[EncoderJumpScan], known: np.ndarray) -> np.ndarray:
-    """Returns (J,) `compute_jump_floors` of a whole log for a part of it, higher if rougher."""
-    share = THRESHOLDS.max_jump_share
-    excess = [[walk.excess[:, j] for walk in walks] for j in range(len(known))]
-    return np.array(
-        [noise.compute_local_threshold(*of, share) for of in zip(excess, known, strict=True)]
-    )
 
 
 def _compute_excess(
@@ -303,34 +209,32 @@ def _compute_excess(
     return np.asarray(step - np.minimum(np.maximum(step, low), high))
 
 
-def _find_whole_turns(excess: np.ndarray, resolution: float) -> np.ndarray:
-    """Returns (n,) whole turns of each step, where they leave no more than its neighbours have."""
+def _find_whole_turns(excess: np.ndarray) -> np.ndarray:
+    """Returns (n,) whole turns of each step, where they leave little."""
     turns = np.round(excess / _TURN)
-    places = np.flatnonzero(turns)
-    left = np.abs(excess - _TURN * turns)
-    for k in places:
-        near = noise.NEAR * noise.compute_nearby_level(left, int(k))
-        most = max(near, noise.STEPS * resolution, THRESHOLDS.turn_tolerance * _TURN)
-        if left[k] > min(most, 0.25 * _TURN):
-            turns[k] = 0.0
-    return np.asarray(turns)
+    return np.where(np.abs(excess / _TURN - turns) < THRESHOLDS.turn_tolerance, turns, 0.0)
 
 
-def find_jumps(walk: EncoderJumpScan, time: np.ndarray, j: int, floor: float) -> list[Defect]:
+def find_jumps(
+    walk: EncoderJumpScan, time: np.ndarray, j: int, model: ChannelModel
+) -> list[Defect]:
     """Returns the leaps of joint j, increasing in time.
+
+    They are lone, and more than the step that the joint makes at its top speed: a smaller one is no
+    more than a sample too late or too early.
 
     Args:
         walk: one segment.
         time: (n,) s.
         j: index of the joint.
-        floor: of that joint.
+        model: of its position.
     """
     wraps = [
         Defect("wrap", int(k) + 1, int(k) + 1, float(_TURN * walk.turns[k, j]))
         for k in np.flatnonzero(walk.turns[:, j])
     ]
-    rest, excess = [], walk.excess[:, j]
-    places = _select_sudden(excess, noise.find_isolated_outliers(excess, floor))
+    rest, floor = [], max(model.top_step, model.resolution)
+    places = noise.find_isolated_outliers(walk.excess[:, j], floor).tolist()
     while places:
         k = places.pop(0)
         held = _count_frozen(walk, time, j, k)
@@ -351,23 +255,6 @@ def find_jumps(walk: EncoderJumpScan, time: np.ndarray, j: int, floor: float) ->
         if abs(way) > walk.fastest[k, j] * (time[last] - time[first]):
             rest.append(Defect(kind, k + 1, k + 1, float(walk.excess[k, j])))
     return sorted(wraps + rest, key=lambda leap: leap.start)
-
-
-def _select_sudden(excess: np.ndarray, places: np.ndarray) -> list[int]:
-    """Returns the places whose neighbours, if they are no leaps themselves, go on as ever.
-
-    Mass has to be moved: a motion that is fast for its sampling leaps too, and runs out beside it.
-    """
-    sudden = []
-    for k in map(int, places):
-        beside = [abs(excess[i]) for i in (k - 1, k + 1) if i not in places]
-        tolerated = max(
-            THRESHOLDS.max_neighbour_share * abs(excess[k]),
-            noise.NEAR * noise.compute_nearby_level(np.abs(excess), k) / 2.0,
-        )
-        if max(beside, default=0.0) < tolerated:
-            sudden.append(k)
-    return sudden
 
 
 def _count_frozen(walk: EncoderJumpScan, time: np.ndarray, j: int, k: int) -> int:

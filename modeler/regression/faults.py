@@ -9,49 +9,38 @@ import numpy as np
 
 from modeler.core.manifest import ModuleSpec
 from modeler.numerics import noise
+from modeler.numerics.channels import (
+    RESTS,
+    ChannelModel,
+    find_frozen_runs,
+    find_repeated_rows,
+    interpolate_held_channel,
+)
 from modeler.regression.defects import (
     Defect,
     Defects,
     Kind,
-    TorqueScales,
-    can_leap,
-    compute_jump_floors,
-    compute_local_floors,
-    compute_torque_scales,
     find_jumps,
     find_spikes,
     scan_jumps,
     select_unexplained,
 )
-from modeler.regression.log import Log, find_runs
+from modeler.regression.log import ChannelModels, Log, find_runs
 from modeler.regression.read import cut_rows
 from modeler.regression.thresholds import THRESHOLDS
 
 
 @dataclass(frozen=True, eq=False)
 class ChannelScales:
-    """What is usual in the channels of a log, beside which a defect stands out; J joints.
+    """What is usual in a log, beside which a defect stands out.
 
     Attributes:
-        steps: (J,) smallest step of each position.
-        leaps: (J,) what a step must have too much to be a leap.
-        torque: and the speeds; None where no torque is measured.
-        floors: (J,) departure below which no value is a spike, of "tau" and logged "qd" and "qdd";
-            None where the log has no segment of them.
+        channels: how each was sampled.
         repeats: True if rows repeat, as the recorder is faster than the robot.
-        clips: (J,) ends of the range at which each position is cut off.
-        stays: (J,) samples for which each torque may stay the same.
-        held: (J,) rows for which values are held, of "q", "tau", "qd" and "qdd".
     """
 
-    steps: np.ndarray
-    leaps: np.ndarray
-    torque: TorqueScales | None
-    floors: Mapping[str, np.ndarray | None]
+    channels: ChannelModels
     repeats: bool
-    clips: tuple[tuple[noise.Clip, ...], ...]
-    stays: tuple[int, ...]
-    held: Mapping[str, tuple[int, ...]]
 
 
 Repairs = Collection[tuple[str, int, str]]
@@ -95,42 +84,33 @@ def repair_log(
     fresh = log
     if is_thinned:
         steps = np.diff(log.time[kept_rows])
-        longest = 1.5 * log.step + float(steps[steps <= noise.RESTS * np.median(steps)].max())
+        longest = 1.5 * log.step + float(steps[steps <= RESTS * np.median(steps)].max())
         rate = float(np.quantile(steps, THRESHOLDS.step_quantile)), longest
         fresh = dataclasses.replace(cut_rows(log, kept_rows), robot_steps=rate)
-    held = _count_held_rows(fresh) if scales is None else scales.held
-    quick = [rows == 1 for rows in held["q"]]
-    if scales is not None:
-        clips, stays = scales.clips, scales.stays
-    else:
-        sampled = zip(fresh.q.T, quick, strict=True)
-        clips = tuple(noise.find_clips(x) if is_quick else () for x, is_quick in sampled)
-        stays = tuple(map(noise.find_longest_usual_run, fresh.tau.T))
-    clipped = [_find_clipped(channel, ends) for channel, ends in zip(fresh.q.T, clips, strict=True)]
+    models = fresh.model_channels() if scales is None else scales.channels
+    fresh = dataclasses.replace(fresh, channels=models)
+    clipped = [_find_clipped(*of) for of in zip(fresh.q.T, models["q"], strict=True)]
     q = _remove_defects(fresh.q, mended_by("q", clipped))
-    unclipped = dataclasses.replace(fresh, q=q)
-    leaps, parts, steps, least = _find_all_jumps(unclipped, spec, scales, quick)
-    others, lonely, torque = _find_spikes(fresh, scales)
+    leaps, parts = _find_all_jumps(dataclasses.replace(fresh, q=q), spec)
     pairs = zip(clipped, leaps, strict=True)
     in_order = [sorted(ends + jumps, key=lambda one: one.start) for ends, jumps in pairs]
-    by_channel = {"q": in_order, **others}
-    for channel, stuck in zip(by_channel["tau"], _find_frozen(fresh, stays), strict=True):
+    by_channel = {"q": in_order, **_find_spikes(fresh)}
+    for channel, stuck in zip(by_channel["tau"], _find_frozen(fresh), strict=True):
         channel += stuck
     segment, values = fresh.piece_number, dict[str, np.ndarray]()
     for name, by_joint in by_channel.items():
-        for j, rows in enumerate(held[name]):
-            if rows > 1:
-                size, time = float(rows), float(fresh.time[0])
+        for j, model in enumerate(models[name]):
+            if model.is_held:
                 by_joint[j] = [one for one in by_joint[j] if one.kind == "wrap"]
-                by_joint[j].append(Defect("held", 0, 0, size, time))
+                by_joint[j].append(Defect("held", 0, 0, model.hold, float(fresh.time[0])))
         ours = mended_by(name, by_joint)
         values[name] = _remove_defects(q if name == "q" else getattr(fresh, name), ours)
         for j, channel in enumerate(ours):
             if name == "q" and channel:
                 _join_positions(values[name][:, j], channel, parts)
             if any(one.kind == "held" for one in channel):
-                column, known = values[name][:, j], (fresh.time, values[name][:, j], held[name][j])
-                column[:] = noise.interpolate_held_channel(*known, smooth=name == "q")
+                column, hold = values[name][:, j], models[name][j].hold
+                column[:] = interpolate_held_channel(fresh.time, column, hold, smooth=name == "q")
         lost = [one.start for channel in ours for one in channel if one.kind == "lost"]
         segment = segment + (np.arange(fresh.rows)[:, None] >= np.array(lost, int)).sum(axis=1)
     new = segment if (segment != fresh.piece_number).any() else fresh.segment
@@ -143,15 +123,7 @@ def repair_log(
     if again.any():
         every = [Defect("repeated", *run, 0.0, float(log.time[run[0]])) for run in find_runs(again)]
         by_channel["rows"] = [every]
-    new_scales = ChannelScales(steps, least, torque, lonely, bool(again.any()), clips, stays, held)
-    return mended, by_channel, scales or new_scales
-
-
-def _count_held_rows(log: Log) -> dict[str, tuple[int, ...]]:
-    """Returns (J,) rows for which the values of each channel are held; 1: they are not."""
-    channels = {"q": log.q, "tau": log.tau, "qd": log.qd, "qdd": log.qdd}
-    logged = {name: x.T for name, x in channels.items() if x is not None}
-    return {name: tuple(map(noise.estimate_hold_length, x)) for name, x in logged.items()}
+    return mended, by_channel, scales or ChannelScales(models, bool(again.any()))
 
 
 def _find_repeats(log: Log, scales: ChannelScales | None) -> np.ndarray:
@@ -159,13 +131,13 @@ def _find_repeats(log: Log, scales: ChannelScales | None) -> np.ndarray:
     if scales is not None and not scales.repeats:
         return np.zeros(log.rows, dtype=bool)
     others = [values for values in (log.tau, log.qd, log.qdd) if values is not None]
-    return noise.find_repeated_rows(log.q, np.column_stack(others), always=scales is not None)
+    return find_repeated_rows(log.q, np.column_stack(others), always=scales is not None)
 
 
-def _find_clipped(values: np.ndarray, ends: Sequence[noise.Clip]) -> list[Defect]:
+def _find_clipped(values: np.ndarray, model: ChannelModel) -> list[Defect]:
     """Returns runs at the ends of the range of a position; none where it goes beyond."""
     clipped = []
-    for end in ends:
+    for end in model.clips:
         beyond = values > end.value if end.upper else values < end.value
         if not beyond.any():
             stays = find_runs(values == end.value)
@@ -173,49 +145,34 @@ def _find_clipped(values: np.ndarray, ends: Sequence[noise.Clip]) -> list[Defect
     return sorted(clipped, key=lambda one: one.start)
 
 
-def _find_frozen(log: Log, held: Sequence[int]) -> list[list[Defect]]:
+def _find_frozen(log: Log) -> list[list[Defect]]:
     """Returns torques that repeat a value while their joint moves, by joint."""
     frozen: list[list[Defect]] = []
-    for j, (tau, q) in enumerate(zip(log.tau.T, log.q.T, strict=True)):
+    models = zip(log.channels["tau"], log.channels["q"], strict=True)
+    for tau, q, (torque, position) in zip(log.tau.T, log.q.T, models, strict=True):
         rows = np.flatnonzero(np.isfinite(tau) & np.isfinite(q))
-        stuck = noise.find_frozen_runs(tau[rows], q[rows], held[j]) if rows.size else []
+        known = tau[rows], torque.stay, q[rows], position.noise
+        stuck = find_frozen_runs(*known) if rows.size else []
         every = [Defect("frozen", *run, 0.0) for run in stuck]
         frozen.append([_locate_defect(one, rows, log) for one in every])
     return frozen
 
 
-def _find_all_jumps(
-    log: Log, spec: ModuleSpec, scales: ChannelScales | None, quick: Sequence[bool]
-) -> tuple[list[list[Defect]], list[np.ndarray], np.ndarray, np.ndarray]:
-    """Returns jumps of positions by joint, the segments that were scanned, steps and floors."""
+def _find_all_jumps(log: Log, spec: ModuleSpec) -> tuple[list[list[Defect]], list[np.ndarray]]:
+    """Returns jumps of positions by joint, and the segments that were scanned."""
     positions: list[list[Defect]] = [[] for _ in spec.joints]
     revolute = np.array([joint.kind == "revolute" for joint in spec.joints])
-    steps = (
-        np.array([noise.estimate_lattice_step(column) for column in log.q.T])
-        if scales is None
-        else scales.steps
-    )
     there = np.isfinite(log.q).all(axis=1)
     stretches = [rows for rows in _iterate_stretches(log, there) if len(rows) > noise.LEAST]
-    if scales is not None and not any(
-        can_leap(log.time[k], log.q[k], scales.leaps) for k in stretches
-    ):
-        return positions, stretches, steps, scales.leaps
     logged = np.zeros_like(log.q) if log.qd is None else log.qd
-    walks = [scan_jumps(log.time[k], log.q[k], revolute, steps, logged[k]) for k in stretches]
-    if scales is None:
-        least = compute_jump_floors(walks, steps)
-    else:
-        least = compute_local_floors(walks, scales.leaps)
-    for rows, walk in zip(stretches, walks, strict=True):
-        for j in range(len(spec.joints)):
-            jumps = find_jumps(walk, log.time[rows], j, least[j])
-            if not quick[j]:
-                jumps = [leap for leap in jumps if leap.kind == "wrap"]
+    for rows in stretches:
+        walk = scan_jumps(log.time[rows], log.q[rows], revolute, logged[rows])
+        for j, model in enumerate(log.channels["q"]):
+            jumps = find_jumps(walk, log.time[rows], j, model)
             if log.robot_steps is not None:  # rows of such a log come when they come
                 jumps = [leap for leap in jumps if leap.kind != "lost"]
             positions[j] += [_locate_defect(leap, rows, log) for leap in jumps]
-    return positions, stretches, steps, least
+    return positions, stretches
 
 
 def _iterate_stretches(log: Log, there: np.ndarray) -> Iterator[np.ndarray]:
@@ -253,30 +210,38 @@ def _join_positions(q: np.ndarray, leaps: Sequence[Defect], parts: Sequence[np.n
         q[rows] -= offset - offset[longest]
 
 
-def _find_spikes(
-    log: Log, scales: ChannelScales | None
-) -> tuple[Defects, dict[str, np.ndarray | None], TorqueScales | None]:
-    """Returns spikes of torques, logged velocities and accelerations, by joint; and the scales."""
+def _find_spikes(log: Log) -> Defects:
+    """Returns spikes of torques, logged velocities and accelerations, by joint."""
     by_channel: Defects = {}
-    floors: dict[str, np.ndarray | None] = {}
-    torque = None if scales is None else scales.torque
-    for name in ("tau", "qd", "qdd"):
-        values = getattr(log, name)
-        if values is None:
+    integrals = {"qd": ("q", log.q), "qdd": ("qd", log.qd)}
+    for name, values in log.measured.items():
+        if name == "q":
             continue
         there = np.isfinite(values).all(axis=1)
         if name == "tau":
             there &= np.isfinite(log.q).all(axis=1)
         rows = [part for part in _iterate_stretches(log, there) if len(part) >= noise.LEAST]
         parts = [values[part] for part in rows]
-        spikes, floors[name] = find_spikes(parts, None if scales is None else scales.floors[name])
-        if name == "tau" and parts and (torque is None or any(map(any, spikes))):
+        spikes = find_spikes(parts, log.channels[name])
+        if name == "tau":
             speeds = [np.gradient(log.q[part], log.time[part], axis=0) for part in rows]
-            torque = torque or compute_torque_scales(parts, speeds)
-            spikes = select_unexplained(spikes, parts, speeds, torque)
-        defects = [_locate_defects(part, rows, log) for part in spikes]
-        by_channel[name] = defects or [[] for _ in log.joints]
-    return by_channel, floors, torque
+            spikes = select_unexplained(spikes, parts, speeds)
+        by_channel[name] = [_locate_defects(part, rows, log) for part in spikes]
+        lower, integral = integrals.get(name, ("", None))
+        if integral is not None:
+            models = zip(by_channel[name], integral.T, log.channels[lower], strict=True)
+            by_channel[name] = [
+                [one for one in channel if not _is_shared(one, log.time, x, model.resolution)]
+                for channel, x, model in models
+            ]
+    return by_channel
+
+
+def _is_shared(spike: Defect, time: np.ndarray, lower: np.ndarray, resolution: float) -> bool:
+    """Returns True if what a logged derivative (n,) derives from leaps there too."""
+    near = slice(max(0, spike.start - 2), spike.stop + 2)
+    steps = np.abs(np.diff(lower[near])) + resolution
+    return bool(np.any(steps > 0.5 * abs(spike.size) * np.diff(time[near])))
 
 
 def _remove_defects(values: np.ndarray, defects: Sequence[Sequence[Defect]]) -> np.ndarray:

@@ -11,8 +11,11 @@ import numpy as np
 
 from modeler.core.errors import DataError
 from modeler.core.result import Result
-from modeler.numerics import noise
+from modeler.numerics.channels import ChannelModel, model_channel
 from modeler.regression.thresholds import THRESHOLDS
+
+ChannelModels = Mapping[str, tuple[ChannelModel, ...]]
+"""(joints,) by name: "q", "tau", and "qd" and "qdd" where they are logged."""
 
 
 class LogRows(Protocol):
@@ -58,6 +61,7 @@ class Log(Result):
             some again; else None.
         induced: (joints,) torque per speed that is still to be taken from tau; empty for none.
         path: of its file as it was given, `@START:END` of a piece of it too; "" if none was.
+        channels: how each was sampled, by name and joint, where that is known of the whole log.
     """
 
     name: str
@@ -77,6 +81,7 @@ class Log(Result):
     induced: tuple[float, ...] = ()
     path: str = ""
     reading_notes: tuple[str, ...] = ()
+    channels: ChannelModels = field(default_factory=dict)
 
     @property
     def rows(self) -> int:
@@ -123,6 +128,19 @@ class Log(Result):
         if resolution < THRESHOLDS.time_resolution_share * step:
             return step
         return float(np.mean(steps[np.abs(steps - step) <= 1.5 * resolution]))
+
+    @property
+    def measured(self) -> dict[str, np.ndarray]:
+        """Returns the channels (n, joints) by name, but for those that are not logged."""
+        every = {"q": self.q, "tau": self.tau, "qd": self.qd, "qdd": self.qdd}
+        return {name: values for name, values in every.items() if values is not None}
+
+    def model_channels(self) -> ChannelModels:
+        """Returns how each channel was sampled."""
+        if self.channels:
+            return self.channels
+        columns = {name: values.T for name, values in self.measured.items()}
+        return {n: tuple(model_channel(self.time, v) for v in x) for n, x in columns.items()}
 
     @property
     def gap(self) -> float:
@@ -281,7 +299,6 @@ def split_log(
     run: int,
     logged_motion: bool,
     extremes: Sequence[tuple[float, float] | None] | None = None,
-    logged: np.ndarray | None = None,
 ) -> tuple[tuple[RawSegment, ...], SplitReport]:
     """Returns the uniform pieces of a log.
 
@@ -295,13 +312,13 @@ def split_log(
         run: its index.
         logged_motion: logged velocities and accelerations are used.
         extremes: of each torque in the whole log, of which this is a part; None: it is all of it.
-        logged: (n, joints) torques before they were mended; None: they were not.
     """
     motion = [log.q, *(m for m in (log.qd, log.qdd) if logged_motion and m is not None)]
     rows = np.flatnonzero(np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0))
     ends = [None] * log.tau.shape[1] if extremes is None else extremes
-    measured = log.tau if logged is None else logged
-    parts = zip(log.tau.T, log.q.T, ends, measured.T, strict=True)
+    models = log.model_channels()
+    pairs = zip(models["tau"], models["q"], strict=True)
+    parts = zip(log.tau.T, log.q.T, pairs, ends, strict=True)
     clipped = np.column_stack([find_saturated(*part) for part in parts])
     steps, stamps = np.diff(log.time[rows]), np.diff(log.time)
     cut = gap = steps > log.gap
@@ -314,8 +331,7 @@ def split_log(
     jitter = float(np.max(np.abs(inside / log.step - 1.0), initial=0.0))
     few = log.time[np.concatenate([rows[:0], *short])]
     report = SplitReport(log.time[rows[1:][gap]], steps[gap], jitter, few)
-    q_step = tuple(map(noise.estimate_lattice_step, log.q.T))
-    qd_step = () if log.qd is None else tuple(map(noise.estimate_lattice_step, log.qd.T))
+    q_step, qd_step = (tuple(one.step for one in models.get(name, ())) for name in ("q", "qd"))
     pieces = (_build_piece(log, run, group, clipped, logged_motion) for group in long_groups)
     stepped = (dataclasses.replace(part, q_step=q_step, qd_step=qd_step) for part in pieces)
     return tuple(stepped), report
@@ -423,44 +439,42 @@ def _bridge_torque(
 def find_saturated(
     values: np.ndarray,
     position: np.ndarray,
+    models: tuple[ChannelModel, ChannelModel],
     extremes: tuple[float, float] | None = None,
-    logged: np.ndarray | None = None,
 ) -> np.ndarray:
     """Returns samples at which a torque is clipped; (n,) bool.
 
-    A run counts when the torque is exactly its largest or smallest value of the whole log for at
-    least 5 samples in a row, and leaps into or out of that run by more than 3 steps of its own
-    resolution. A clean quantised signal rounds its crest one step at a time and is not caught;
-    a torque at rest, which is constant all along, has no leap and is not caught either, and the
-    joint moves in one run at least. A torque that is held is sampled more slowly.
+    A run counts when the torque is exactly its largest or smallest value of the whole log, and not
+    0, for at least 5 samples in a row, and leaps into or out of that run by more than 3 steps of
+    its own resolution; one such run, if it is the only one, lasts 20. A clean quantised signal
+    rounds its crest one step at a time and is not caught; a torque at rest, which is constant all
+    along, has no leap and is not caught either, and the joint moves in one run at least. A torque
+    that is held is sampled more slowly.
 
     Args:
         values: (n,) torque of one joint, NaN where missing.
         position: (n,) of the joint.
+        models: of the torque and of the position.
         extremes: smallest and largest value of the log elsewhere, of which these are a part.
-        logged: (n,) the torque before it was mended: between held samples it is interpolated.
     """
     is_saturated = np.zeros(len(values), dtype=bool)
-    if not len(values):
-        return is_saturated
-    low, high = float(np.fmin.reduce(values)), float(np.fmax.reduce(values))
-    if not low < high:
+    low = float(np.fmin.reduce(values, initial=np.inf))
+    high = float(np.fmax.reduce(values, initial=-np.inf))
+    shortest = THRESHOLDS.min_saturated_run
+    if not low < high or models[0].hold >= shortest:
         return is_saturated
     ends = [low, high]
     if extremes is not None:
         ends = [low] * (low <= extremes[0]) + [high] * (high >= extremes[1])
-    shortest = THRESHOLDS.min_saturated_run
-    runs = [(end, run) for end in ends for run in find_runs(values == end)]
+    runs = [(end, run) for end in ends if end != 0.0 for run in find_runs(values == end)]
     runs = [(end, (start, stop)) for end, (start, stop) in runs if stop - start >= shortest]
-    least = THRESHOLDS.min_saturated_travel
-    if runs:
-        least *= noise.estimate_channel_noise(position[np.isfinite(position)])
+    least = THRESHOLDS.min_saturated_travel * models[1].noise
     travels = ((end, position[stop - 1] - position[start]) for end, (start, stop) in runs)
     moved = {end for end, travel in travels if abs(travel) > least}
-    if not moved or noise.estimate_hold_length(values if logged is None else logged) >= shortest:
+    if extremes is None and len(runs) == 1 and np.ptp(runs[0][1]) < THRESHOLDS.min_single_limit:
         return is_saturated
     several = len(np.unique(values[np.isfinite(values)])) > THRESHOLDS.max_switched_values
-    resolution = noise.estimate_lattice_step(values) if several else 0.0
+    resolution = models[0].step if several else 0.0
     for extreme, (start, stop) in [(end, run) for end, run in runs if end in moved]:
         beside = [values[i] for i in (start - 1, stop) if 0 <= i < len(values)]
         leap = max((abs(extreme - v) for v in beside if np.isfinite(v)), default=0.0)

@@ -480,7 +480,8 @@ def find_ringing(
 ) -> tuple[Ringing | None, int]:
     """Returns what rings, and the index of its first frequency; all if nothing does.
 
-    Ringing is energy above `RINGS_ABOVE` Hz that an empty gap of two octaves parts from motion.
+    Ringing is energy above `min_ringing_frequency` that an empty gap of two octaves parts from
+    motion; it rings at one frequency if most of that energy lies there.
 
     Args:
         frequency: (n,) Hz, from 0 on.
@@ -499,9 +500,11 @@ def find_ringing(
             and between < THRESHOLDS.max_gap_energy * motion
             and above > THRESHOLDS.min_ringing_energy * motion
         ):
-            top = high + int(np.argmax(energy[high:]))
+            top = float(frequency[high + int(np.argmax(energy[high:]))])
+            line = energy[np.abs(frequency - top) < THRESHOLDS.ringing_width * top].sum()
+            is_line = line > 0.5 * above
             share = float(above / total[-1])
-            return Ringing(joint, float(frequency[top]), share), int(high)
+            return Ringing(joint, top, share) if is_line else None, int(high)
     return None, whole
 
 

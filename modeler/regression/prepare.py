@@ -11,8 +11,8 @@ from modeler.core.errors import DataError, LoopError
 from modeler.core.json import ShortRepr
 from modeler.core.manifest import JointSpec, ModuleSpec
 from modeler.logs import Positions, is_derivative
+from modeler.numerics.channels import COARSE
 from modeler.numerics.least_squares import compute_weighted_median
-from modeler.numerics.noise import COARSE
 from modeler.numerics.spectra import MotionSpectrum, compute_motion_spectrum, estimate_coherence
 from modeler.regression import motion_noise
 from modeler.regression.consistency import (
@@ -161,7 +161,7 @@ class LogRepair(ShortRepr):
             if not processing.keep_damaged:
                 logs = [self.get_repaired(run, processing)[0] for run in range(len(logs))]
             cut = [
-                split_log(log, run, has_speeds, logged=self.logs[run].tau)
+                split_log(log, run, has_speeds)
                 for run, (log, has_speeds) in enumerate(zip(logs, used, strict=True))
             ]
             self._cut_by_choice[key] = CutLogs(self.spec, logs, cut)
@@ -245,7 +245,7 @@ def prepare_logs(
         # what is left of rows that repeat comes unevenly, as it was stamped
         own_spectra = [s for p, s in zip(pieces, seen.spectra, strict=True) if p.run == run]
         rings = [] if scales.repeats else find_ringing_joints(own_spectra, steps, log_pieces)
-        rings = [ring for ring in rings if scales.held["q"][ring.joint] == 1]
+        rings = [ring for ring in rings if not scales.channels["q"][ring.joint].is_held]
         said = tuple(ring.describe(spec.joints[ring.joint].name) for ring in rings)
         repairs = processing.repairs_of(log.name)
         entry = PreparedLog(used_pieces, cuts, source, check, said, damage, scales, repairs)

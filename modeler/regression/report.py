@@ -115,6 +115,8 @@ def describe_damages(
                 unused = f"{samples} sample{'s' * (samples > 1)} {share} not used"
                 done, score = _DONE.get(kind, unused), repairs.get(f"{column} {kind}", np.nan)
                 is_mended = kind in ALWAYS or score < THRESHOLDS.max_repair_ratio
+                if score >= THRESHOLDS.max_noted_ratio and kind != "held":
+                    continue
                 if not is_mended:
                     done, samples = "used as logged", 0
                 if np.isfinite(score):

@@ -104,6 +104,7 @@ def tabulate_channels(inspection: LogInspection) -> list[list[str]]:
     rows = [list(_HEAD)]
     for channel in inspection.channels:
         remarks = ["never changes"] if channel.is_constant else []
+        remarks += [f"each value held for {channel.held_rows} rows"] * (channel.held_rows > 1)
         remarks += [
             f"stays at {x:.4g} in {format_percent(share)} of the rows"
             for x, share in channel.limits

@@ -18,7 +18,8 @@ COMMANDS = (
 # What is said of a fault. None of these machines has one.
 FAULTS = (
     r"clipped",
-    r"\bleap",
+    r"\bleap|\bjumps\b",
+    r"repeats one value",
     r"another zero",
     r"\bzero (?:of|seems|is off)",
     r"\brings?\b",

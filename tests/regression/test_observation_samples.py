@@ -8,6 +8,7 @@ import pytest
 from modeler.core.errors import DataError
 from modeler.core.manifest import JointSpec
 from modeler.estimation.identify import identify
+from modeler.numerics.channels import model_channel
 from modeler.numerics.filters import apply_zero_phase_lowpass
 from modeler.regression import prepare
 from modeler.regression.log import Log, find_saturated, split_log
@@ -26,38 +27,45 @@ def log_of(time, q=None, tau=None, **more):
     return Log("a.csv", ("1",), time, q, tau, **more)
 
 
+def saturated(tau, q, logged=None):
+    """Samples at a limit; `logged` is the torque before it was mended."""
+    time = np.arange(len(q)) / 1000.0
+    models = [model_channel(time, values) for values in (tau if logged is None else logged, q)]
+    return find_saturated(tau, q, models)
+
+
 def test_clipping_is_caught_and_clean_signals_are_not():
     t = np.arange(4000) / 1000.0
     noise = np.random.default_rng(0).normal(0, 0.01, t.shape)
     sine = np.sin(2 * np.pi * t)
     clipped = np.clip(1.5 * sine + noise, -1.0, 1.0)
-    caught = find_saturated(clipped, t)
+    caught = saturated(clipped, t)
     assert caught.sum() > 0.9 * np.sum(np.abs(1.5 * sine) > 1.05)
     assert np.all(np.abs(clipped[caught]) == 1.0)
-    one_sided = find_saturated(np.minimum(1.5 * sine, 1.0), t)
+    one_sided = saturated(np.minimum(1.5 * sine, 1.0), t)
     assert one_sided.any() and not one_sided[sine < 0].any()
     switched = 10.0 * np.sign(np.round(sine))  # full torque, none, full torque back
-    assert np.array_equal(find_saturated(switched, t), switched != 0.0)
+    assert np.array_equal(saturated(switched, t), switched != 0.0)
     for resolution in (1e-4, 1e-3, 1e-2, 0.1):  # crests of 3 to 200 equal samples
         for scale in (1.0, 1.0 / 3.0):
             rounded = np.round(sine / resolution) * resolution * scale
-            assert not find_saturated(rounded, t).any()
-            assert not find_saturated(np.round((sine + noise) / resolution) * resolution, t).any()
-    assert not find_saturated(np.full(100, 3.0), t[:100]).any()
-    assert not find_saturated(np.array([np.nan] * 50), t[:50]).any()
+            assert not saturated(rounded, t).any()
+            assert not saturated(np.round((sine + noise) / resolution) * resolution, t).any()
+    assert not saturated(np.full(100, 3.0), t[:100]).any()
+    assert not saturated(np.array([np.nan] * 50), t[:50]).any()
 
 
 def test_a_held_torque_and_that_of_a_joint_at_rest_are_not_at_a_limit():
     t = np.arange(4000) / 1000.0
     held = np.repeat(np.sin(2 * np.pi * t)[::20], 20)
-    assert not find_saturated(held, t).any()
+    assert not saturated(held, t).any()
     fresh = np.random.default_rng(2).integers(-9, 10, 200)
     fresh[60:62] = 12  # twice the largest, which is a limit only where the log holds no value
     held, mended = np.repeat(fresh, 20), np.interp(t, t[::20], fresh)
-    assert find_saturated(mended, t).any() and not find_saturated(mended, t, logged=held).any()
+    assert saturated(mended, t).any() and not saturated(mended, t, logged=held).any()
     random = np.random.default_rng(1)
     torque = np.where(t < 2.0, np.sin(9.0 * t) + 0.01 * random.normal(size=4000), 3.0)
-    assert not find_saturated(torque, np.minimum(t, 2.0)).any()
+    assert not saturated(torque, np.minimum(t, 2.0)).any()
 
 
 def test_pieces_end_at_gaps_and_segment_changes():
