@@ -1,7 +1,7 @@
 """What is in a log: clock, channels, warnings and where they lie."""
 
 import dataclasses
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,7 +29,7 @@ from modeler.logs.rates import check_rates, describe_repeats, is_moving, is_on_g
 from modeler.logs.thresholds import THRESHOLDS
 from modeler.numerics.channels import ChannelModel, find_repeated_rows, model_channel
 
-GAP = 1.5  # of a usual step
+GAP = 1.9  # of a usual step: a row is missing
 HELD = 3  # rows in a row at the extreme value that make it a limit
 _MEASURED = ("q", "qd", "qdd", "tau", "current")
 _TOLD = (
@@ -46,7 +46,7 @@ class Clock(Document):
         column: in the file.
         rate: Hz, by the median step; NaN where most steps are 0.
         jitter: standard deviation of the steps without gaps, as a share of the median.
-        gaps: steps of more than 1.5 usual ones; `lost_rows` rows would fit into them.
+        gaps: steps of more than 1.9 usual ones; `lost_rows` rows would fit into them.
         largest_gap: gap, s; `at`: s, where it begins, NaN without any.
         repeated_steps: of 0; `backward_steps`: to an earlier time.
         duration: s.
@@ -220,6 +220,8 @@ def inspect_table(
         held = np.stack([extent.held for extent in extents[name]])
         low, high = float(np.fmin.reduce(ends[:, 1])), float(np.fmax.reduce(ends[:, 2]))
         limits = _find_limits(ends.ravel()[1:-1], held.ravel()[1:-1], (low, high), rows - missing)
+        if high - low <= models[name].resolution:  # at rest
+            limits = ()
         channels.append(
             Channel(
                 name=table.format_name(name),
@@ -244,14 +246,13 @@ def inspect_table(
     doubts = [*_describe_clock(clock, coarse), *find_absent_roles(guesses)]
     doubts += describe_non_si_columns(guesses)
     doubts += describe_doubtful_degrees(guesses, values)
-    rest = {speed for position, speed in pairs if not is_moving(values[position])}
     doubts += check_rates(pairs, values, time)
     doubts += _find_repeats(guesses, values, models, rows, clock, table.format_name)
-    constant = ((c, name) for c, name in zip(channels, shown, strict=True) if c.is_constant)
-    still = [c.name for c, name in constant if not (name in rest and c.low == 0.0)]
-    if still:
-        verb = "never changes: is it" if len(still) == 1 else "never change: are they"
-        doubts.append(f"{', '.join(still)} {verb} connected?")
+    constant = {name for c, name in zip(channels, shown, strict=True) if c.is_constant}
+    still = map(table.format_name, _find_dead_channels(guesses, values, constant))
+    if names_still := ", ".join(still):
+        verb = "never change: are they" if "," in names_still else "never changes: is it"
+        doubts.append(f"{names_still} {verb} connected?")
     bare = [one.drop_range_units() if one.quantity in ("q", "qc") else one for one in guesses]
     suggested, plain = (
         "" if mapping.layers else format_log_table(f, joints, tuple(values), names)
@@ -273,6 +274,16 @@ def inspect_table(
         *drawn,
         None if clock is None else _build_positions(table, values, guesses, joints, names, time),
     )
+
+
+def _find_dead_channels(
+    guesses: Sequence[Guess], values: Mapping[str, np.ndarray], constant: Collection[str]
+) -> list[str]:
+    """Returns speeds and torques that never change though their joint moves."""
+    by = {one.quantity: dict(zip(one.labels, one.columns, strict=True)) for one in guesses}
+    moving = {label for label, name in by.get("q", {}).items() if is_moving(values[name])}
+    measured = [by[name].items() for name in _MEASURED if name != "q" and name in by]
+    return [name for x in measured for label, name in x if label in moving and name in constant]
 
 
 def _build_positions(

@@ -103,7 +103,7 @@ def infer_units(ratio: float) -> tuple[str, str] | None:
     """Returns units of position and speed that such a ratio looks like; ("", "") if they agree."""
     if not np.isfinite(ratio):
         return None
-    if abs(abs(ratio) - 1.0) < THRESHOLDS.max_ratio_deviation:
+    if abs(abs(ratio) - 1.0) < THRESHOLDS.max_agreeing_deviation:
         return "", ""
     pairs = [(a, b) for a, b in permutations(RATES, 2) if a != "rpm"]
     offs = ((abs(abs(ratio) * RATES[b] / RATES[a] - 1.0), a, b) for a, b in pairs)
@@ -143,9 +143,9 @@ def find_common_factor(ratios: Sequence[float]) -> float | None:
     if not known.size or known.size < len(ratios) or not (known > 0.0).all():
         return None
     factor = float(np.median(known))
-    most = THRESHOLDS.max_ratio_deviation
-    alike = np.all(np.abs(known / factor - 1.0) < most) and abs(factor - 1.0) > 2.0 * most
-    return factor if alike else None
+    alike = np.all(np.abs(known / factor - 1.0) < THRESHOLDS.max_ratio_deviation)
+    is_wrong = abs(factor - 1.0) > THRESHOLDS.max_agreeing_deviation
+    return factor if alike and is_wrong else None
 
 
 def describe_clock_factor(factor: float, rate: float) -> str:
@@ -205,7 +205,7 @@ def _describe_mismatch(
 
 def _describe_ratio(pair: RatePair) -> str:
     """What a speed is times the derivative of its position, if not 1, and what that looks like."""
-    if abs(pair.ratio - 1.0) < THRESHOLDS.max_ratio_deviation:
+    if abs(pair.ratio - 1.0) < THRESHOLDS.max_agreeing_deviation:
         return ""
     if abs(pair.ratio + 1.0) < THRESHOLDS.max_ratio_deviation:
         return f"{pair.speed} has the other sign of the derivative of {pair.position}"

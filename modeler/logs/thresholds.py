@@ -85,6 +85,8 @@ class Thresholds:
     """From which on a speed is the derivative of a position. No study."""
     max_ratio_deviation: float = 0.1
     """Relative; of a ratio that is a matter of units. No study."""
+    max_agreeing_deviation: float = 0.2
+    """Relative; of a speed that may be filtered or scaled: a surgical arm's is 1.18 times that."""
     min_motion_to_noise: float = 100.0
     """Times its noise from which on a joint moves. No study."""
     min_compared_rows: int = 10

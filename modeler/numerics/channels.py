@@ -338,6 +338,7 @@ def _is_unbraked(time: np.ndarray, before: np.ndarray, least: float) -> bool:
         places = [-1 - 2 * rows, -1 - rows, -1]
         earlier, last = np.diff(before[places])
         if max(earlier, last) > least:
-            ratio = last * (time[places[1]] - time[places[0]]) / (time[-1] - time[places[1]])
-            return bool(ratio > THRESHOLDS.min_end_speed * earlier * (1.0 - 1e-6))
+            before_s, last_s = np.diff(time[places])
+            least_speed = THRESHOLDS.min_end_speed * earlier * (1.0 - 1e-6)
+            return bool(last * before_s > least_speed * last_s)
     return False

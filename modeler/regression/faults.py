@@ -87,11 +87,11 @@ def repair_log(
         longest = 1.5 * log.step + float(steps[steps <= RESTS * np.median(steps)].max())
         rate = float(np.quantile(steps, THRESHOLDS.step_quantile)), longest
         fresh = dataclasses.replace(cut_rows(log, kept_rows), robot_steps=rate)
-    models = fresh.model_channels() if scales is None else scales.channels
+    models = cut_rows(log, ~again).model_channels() if scales is None else scales.channels
     fresh = dataclasses.replace(fresh, channels=models)
     clipped = [_find_clipped(*of) for of in zip(fresh.q.T, models["q"], strict=True)]
     q = _remove_defects(fresh.q, mended_by("q", clipped))
-    leaps, parts = _find_all_jumps(dataclasses.replace(fresh, q=q), spec)
+    leaps, parts = _find_all_jumps(dataclasses.replace(fresh, q=q), spec, bool(again.any()))
     pairs = zip(clipped, leaps, strict=True)
     in_order = [sorted(ends + jumps, key=lambda one: one.start) for ends, jumps in pairs]
     by_channel = {"q": in_order, **_find_spikes(fresh)}
@@ -158,7 +158,9 @@ def _find_frozen(log: Log) -> list[list[Defect]]:
     return frozen
 
 
-def _find_all_jumps(log: Log, spec: ModuleSpec) -> tuple[list[list[Defect]], list[np.ndarray]]:
+def _find_all_jumps(
+    log: Log, spec: ModuleSpec, repeats: bool
+) -> tuple[list[list[Defect]], list[np.ndarray]]:
     """Returns jumps of positions by joint, and the segments that were scanned."""
     positions: list[list[Defect]] = [[] for _ in spec.joints]
     revolute = np.array([joint.kind == "revolute" for joint in spec.joints])
@@ -169,8 +171,8 @@ def _find_all_jumps(log: Log, spec: ModuleSpec) -> tuple[list[list[Defect]], lis
         walk = scan_jumps(log.time[rows], log.q[rows], revolute, logged[rows])
         for j, model in enumerate(log.channels["q"]):
             jumps = find_jumps(walk, log.time[rows], j, model)
-            if log.robot_steps is not None:  # rows of such a log come when they come
-                jumps = [leap for leap in jumps if leap.kind != "lost"]
+            if repeats:  # rows of such a log come when they come
+                jumps = [leap for leap in jumps if leap.kind not in ("lost", "frozen")]
             positions[j] += [_locate_defect(leap, rows, log) for leap in jumps]
     return positions, stretches
 
