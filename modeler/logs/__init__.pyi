@@ -6,8 +6,9 @@ from .blocks import (
     read_windows as read_windows,
 )
 from .columns import Columns as Columns, describe_coarse_clock as describe_coarse_clock
-from .guess import EITHER as EITHER, split_label as split_label
+from .guess import EITHER as EITHER, guess_role as guess_role, split_label as split_label
 from .inspect import (
+    Channel as Channel,
     Clock as Clock,
     LogInspection as LogInspection,
     Mark as Mark,

@@ -427,6 +427,7 @@ def _build_motion_panel(one: ChannelNoise, bands: Bands) -> fig.Panel:
         )
     band = np.array([[min(f[0], one.band_hz) / 2.0, one.band_hz]])
     colour = f", noise of f^-{one.spectral_slope:.1f}" if one.spectral_slope else ""
+    colour = ", planned, filtered or simulated" if one.is_exact else colour
     unit = {4: one.unit, 2: f"({one.unit}/s)", 0: f"({one.unit}/s2)"}[_POWER[one.quantity]]
     title, label = f"Joint {one.joint}: {one.quantity}{colour}", f"density [{unit}^2/Hz]"
     spans = (fig.Span("motion band", band, fig.PALE["blue"]),) if one.band_hz else ()

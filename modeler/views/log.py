@@ -9,7 +9,7 @@ from modeler.core.figure import SLATE, Panel, Picture, Points, Style, thin_point
 from modeler.core.result import Figures, Presentation, Tables
 from modeler.core.table import Cell, Table, format_percent
 from modeler.excitation import ExcitingMotion
-from modeler.logs import Clock, LogInspection, split_label
+from modeler.logs import Channel, Clock, LogInspection, guess_role, split_label
 from modeler.regression import (
     Bands,
     DataReport,
@@ -44,9 +44,11 @@ def build_log_page(
     head, *rows = tabulate_channels(inspection)
     table = page.PageTable(head, rows, kinds=dict.fromkeys(("unit", "remarks"), "text"))
     listed = page.Items([("", line) for line in doubts]) if doubts else page.Paragraph("None.")
+    pictures, sampling = draw_channel_pictures(inspection), draw_sampling_picture(inspection)
+    pictures += [] if sampling is None else [sampling]
     sections = [
         page.Section("Doubts", [listed]),
-        page.Section("Channels", [table, *map(page.Figure, draw_channel_pictures(inspection))]),
+        page.Section("Channels", [table, *map(page.Figure, pictures)]),
     ]
     noise = build_noise_blocks(bands or build_bands(estimate_position_noise(inspection.positions)))
     if noise:
@@ -126,10 +128,8 @@ def tabulate_channels(inspection: LogInspection) -> list[list[str]]:
 def draw_log_pictures(inspection: LogInspection, bands: Bands | None = None) -> list[Picture]:
     """Draws all pictures of a log; `bands` as of `build_log_page`."""
     noise = draw_noise_picture(bands or build_bands(estimate_position_noise(inspection.positions)))
-    return [
-        *draw_channel_pictures(inspection),
-        *(p for p in (noise, draw_clock_picture(inspection)) if p is not None),
-    ]
+    others = draw_sampling_picture(inspection), noise, draw_clock_picture(inspection)
+    return [*draw_channel_pictures(inspection), *(p for p in others if p is not None)]
 
 
 def draw_channel_pictures(inspection: LogInspection) -> list[Picture]:
@@ -163,6 +163,44 @@ def _draw_channels(
         "between them are thinned. A value that is missing breaks its line."
     )
     return Picture(f"channels_{number}", title, caption, ((panel,),), 320)
+
+
+def draw_sampling_picture(inspection: LogInspection) -> Picture | None:
+    """Draws some rows of each position and torque, one by one; None of long logs and at rest."""
+    if inspection.clock is None or inspection.time.size != inspection.rows:
+        return None
+    pairs = zip(inspection.channels, inspection.values.items(), strict=True)
+    moving = [
+        _build_sampling_panel(inspection, channel, values)
+        for channel, (name, values) in pairs
+        if guess_role(name) in ("q", "tau", "current") and not channel.is_constant
+    ]
+    if not moving:
+        return None
+    per_row = min(len(moving), THRESHOLDS.sampling_panels)
+    moving += [Panel("", "", "", ())] * (-len(moving) % per_row)
+    grid = tuple(tuple(moving[k : k + per_row]) for k in range(0, len(moving), per_row))
+    caption = (
+        "Some rows as logged, each a dot, where its steps show best: levels are those of its "
+        "lattice, level runs of one length a value that is held, uneven distances the clock."
+    )
+    return Picture("sampling", "How each channel is sampled", caption, grid, 60 + 200 * len(grid))
+
+
+def _build_sampling_panel(inspection: LogInspection, channel: Channel, values: np.ndarray) -> Panel:
+    rows = min(THRESHOLDS.sampling_rows, len(values))
+    change = np.append(0.0, np.cumsum(np.abs(np.nan_to_num(np.diff(values)))))
+    travel = change[rows - 1 :] - change[: len(change) - rows + 1]
+    if channel.resolution and channel.held_rows == 1:  # slow enough to see its steps
+        travel = -np.abs(travel - 0.5 * rows * channel.resolution)
+    first = int(np.argmax(travel))
+    part = slice(first, first + rows)
+    words = [f"steps of {channel.resolution:.3g}"] * bool(channel.resolution)
+    words += [f"held for {channel.held_rows} rows"] * (channel.held_rows > 1)
+    dots = Points("as logged", inspection.time[part], values[part], Style(SLATE, width=2.0))
+    title = f"{channel.name}: {', '.join(words)}" if words else channel.name
+    label = f"{channel.name} [{channel.unit}]" if channel.unit else channel.name
+    return Panel(title, _choose_time_label(inspection), label, (dots,))
 
 
 def draw_clock_picture(inspection: LogInspection) -> Picture | None:

@@ -55,6 +55,10 @@ class Thresholds:
     """Factor over a floor or level that is drawn beyond it."""
     max_curve_points: int = 600
     """Points of one curve of a log."""
+    sampling_rows: int = 60
+    """Rows of a channel that are drawn one by one."""
+    sampling_panels: int = 3
+    """Of such rows beside each other."""
     same_place_points: float = 4.0
     """Points of the paper: closer names are written together."""
     min_view_gain: float = 1.02
