@@ -1,7 +1,7 @@
 """What is in a log: clock, channels, warnings and where they lie."""
 
 import dataclasses
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,7 +27,7 @@ from modeler.logs.log_table import LogTable
 from modeler.logs.mapping import LENGTH, LogMap, find_unit, parse_unit
 from modeler.logs.rates import check_rates, describe_repeats, is_moving, is_on_grid
 from modeler.logs.thresholds import THRESHOLDS
-from modeler.numerics.channels import ChannelModel, find_repeated_rows, model_channel
+from modeler.numerics.channels import find_repeated_rows, model_channel
 
 GAP = 1.9  # of a usual step: a row is missing
 HELD = 3  # rows in a row at the extreme value that make it a limit
@@ -212,7 +212,8 @@ def inspect_table(
     time, clock = _measure_clock(table, values, guesses)
     shown = {name: table.convert_to_unit(name, v) for name, v in values.items()}
     rows, clock, extents, drawn = _scan_rows(table, blocks, guesses, clock, every is None)
-    models = {name: model_channel(time, v) for name, v in shown.items()}
+    again = _find_repeats(guesses, values, clock)
+    models = {name: model_channel(time[~again], v[~again]) for name, v in shown.items()}
     channels = []
     for name in shown:
         stated, missing = table.get_unit(name), sum(extent.missing for extent in extents[name])
@@ -247,7 +248,9 @@ def inspect_table(
     doubts += describe_non_si_columns(guesses)
     doubts += describe_doubtful_degrees(guesses, values)
     doubts += check_rates(pairs, values, time)
-    doubts += _find_repeats(guesses, values, models, rows, clock, table.format_name)
+    if clock is not None:
+        holds = {table.format_name(name): models[name].hold for name in _list_measured(guesses)}
+        doubts += _describe_holds(holds, float(again.mean()), rows, clock.rate)
     constant = {name for c, name in zip(channels, shown, strict=True) if c.is_constant}
     still = map(table.format_name, _find_dead_channels(guesses, values, constant))
     if names_still := ", ".join(still):
@@ -282,8 +285,8 @@ def _find_dead_channels(
     """Returns speeds and torques that never change though their joint moves."""
     by = {one.quantity: dict(zip(one.labels, one.columns, strict=True)) for one in guesses}
     moving = {label for label, name in by.get("q", {}).items() if is_moving(values[name])}
-    measured = [by[name].items() for name in _MEASURED if name != "q" and name in by]
-    return [name for x in measured for label, name in x if label in moving and name in constant]
+    measured = [by.get(name, {}) for name in _MEASURED if name != "q"]
+    return [x[label] for x in measured for label in x if label in moving and x[label] in constant]
 
 
 def _build_positions(
@@ -310,38 +313,34 @@ def _build_positions(
     return Positions(called, tuple(units), time, np.column_stack(columns))
 
 
-def _find_repeats(
-    guesses: Sequence[Guess],
-    values: Mapping[str, np.ndarray],
-    models: Mapping[str, ChannelModel],
-    rows: int,
-    clock: Clock | None,
-    called: Callable[[str], str],
-) -> list[str]:
-    """Rows that a recorder wrote again, and channels that are sampled more slowly than the log.
+def _list_measured(guesses: Sequence[Guess], but: Collection[str] = ()) -> list[str]:
+    """Columns of what was measured, but for some quantities."""
+    some = (one for one in guesses if one.quantity in _MEASURED and one.quantity not in but)
+    return [name for one in some for name in one.columns]
 
-    By the rows of the windows of a long log.
-    """
-    q, others = (
-        [values[name] for one in guesses if one.quantity in entry for name in one.columns]
-        for entry in (("q",), ("tau", "current", "qd", "qdd"))
-    )
+
+def _find_repeats(
+    guesses: Sequence[Guess], values: Mapping[str, np.ndarray], clock: Clock | None
+) -> np.ndarray:
+    """(n,) True at rows that a recorder wrote again; in windows of a long log."""
+    others = [values[name] for name in _list_measured(guesses, but=("q",))]
+    q = [values[name] for one in guesses if one.quantity == "q" for name in one.columns]
     if clock is None or not q or not others:
-        return []
-    again = find_repeated_rows(np.column_stack(q), np.column_stack(others))
-    count = round(float(again.mean()) * rows)
-    held: dict[int, list[str]] = {}
-    for one in guesses:
-        for name in one.columns if one.quantity in _MEASURED else ():
-            held.setdefault(models[name].hold, []).append(called(name))
-    if count:
-        return [describe_repeats(count, rows, clock.rate)]
-    return [
-        f"{', '.join(names)}: holds each value for {entry} rows: sampled at "
-        f"{clock.rate / entry:.3g} Hz, not {clock.rate:.4g} Hz"
-        for entry, names in held.items()
-        if entry > 1
-    ]
+        return np.zeros(len(next(iter(values.values()), ())), dtype=bool)
+    return find_repeated_rows(np.column_stack(q), np.column_stack(others))
+
+
+def _describe_holds(held: Mapping[str, int], share: float, rows: int, rate: float) -> list[str]:
+    """A share of rows that repeat, and channels that are sampled more slowly than the rows."""
+    lines = [describe_repeats(round(share * rows), rows, rate)] if share else []
+    fresh = rate * (1.0 - share)
+    for hold in sorted({*held.values()} - {1}):
+        names = ", ".join(name for name, other in held.items() if other == hold)
+        lines.append(
+            f"{names}: holds each value for {hold} rows: sampled at {fresh / hold:.3g} Hz, not "
+            f"{fresh:.4g} Hz"
+        )
+    return lines
 
 
 def _select_span(

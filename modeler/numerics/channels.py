@@ -218,7 +218,8 @@ def find_repeated_rows(
     every = np.column_stack([positions, others])
     fresh = every[~same]
     often = (
-        same.mean() > THRESHOLDS.min_repeated_rows
+        len(fresh) > 1
+        and same.mean() > THRESHOLDS.min_repeated_rows
         and same.sum() > THRESHOLDS.min_joint_repeats * still.sum()
         and np.mean(fresh[1:] != fresh[:-1], axis=0).max() > THRESHOLDS.min_new_values
     )

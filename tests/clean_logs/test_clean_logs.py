@@ -9,19 +9,8 @@ from tests.rotation import ROTATING, rotating, with_cases
 DAILY = [182, pytest.param(107, marks=ROTATING), *rotating(103)]
 """Sticks and held, with two joints and with more; held and single, what once was said to ring."""
 
-KNOWN = {
-    201: "a speed whose noise is large is called no derivative of the position",
-    202: "16 rows at the coarse end of a torque are called clipped",
-}
-"""Seeds with a false line that is known and not yet mended."""
-
-SLOW = [
-    pytest.param(
-        seed,
-        marks=[pytest.mark.slow, *(pytest.mark.xfail(reason=KNOWN[k]) for k in {seed} & {*KNOWN})],
-    )
-    for seed in range(200, 200 + len(PAIRS))
-]
+SLOW = [pytest.param(seed, marks=pytest.mark.slow) for seed in range(200, 200 + len(PAIRS))]
+"""201: coarse speeds of a held position; 202: 16 rows at the coarse end of a torque."""
 
 
 @pytest.mark.rotating("long tests of clean_logs")
