@@ -54,6 +54,9 @@ def find_spikes(stretches: Sequence[np.ndarray], models: Sequence[ChannelModel])
     for j, model in enumerate(models):
         floor = max(THRESHOLDS.min_spike_share * model.spread, model.resolution)
         values = [part[:, j] for part in stretches]
+        if not any(noise.can_depart(part, floor) for part in values):
+            spikes.append([[] for _ in stretches])
+            continue
         departed = [noise.subtract_running_median(part) for part in values]
         beyond = sum(np.count_nonzero(np.abs(part) > floor) for part in departed)
         most = max(THRESHOLDS.max_spikes, THRESHOLDS.max_spike_rate * sum(map(len, values)))
@@ -197,6 +200,19 @@ def scan_jumps(
     return EncoderJumpScan(q, turns, speed, excess, fastest)
 
 
+def compute_jump_floor(model: ChannelModel) -> float:
+    """Returns the step of a position, rad or m, below which it is no jump."""
+    return max(model.top_step, model.resolution)
+
+
+def can_jump(time: np.ndarray, q: np.ndarray, models: Sequence[ChannelModel]) -> bool:
+    """Returns False if `scan_jumps` of a segment finds nothing above the floors, and no turn."""
+    dt = np.diff(time)
+    floors = [min(compute_jump_floor(model), 0.4 * _TURN) / dt.max() for model in models]
+    slopes = np.diff(q.T) / dt
+    return any(noise.can_depart(*pair) for pair in zip(slopes, floors, strict=True))
+
+
 def _compute_excess(
     step: np.ndarray, speed: np.ndarray, dt: np.ndarray, usual: float
 ) -> np.ndarray:
@@ -233,7 +249,7 @@ def find_jumps(
         Defect("wrap", int(k) + 1, int(k) + 1, float(_TURN * walk.turns[k, j]))
         for k in np.flatnonzero(walk.turns[:, j])
     ]
-    rest, floor = [], max(model.top_step, model.resolution)
+    rest, floor = [], compute_jump_floor(model)
     places = noise.find_isolated_outliers(walk.excess[:, j], floor).tolist()
     while places:
         k = places.pop(0)

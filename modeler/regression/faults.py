@@ -20,6 +20,7 @@ from modeler.regression.defects import (
     Defect,
     Defects,
     Kind,
+    can_jump,
     find_jumps,
     find_spikes,
     scan_jumps,
@@ -168,6 +169,8 @@ def _find_all_jumps(
     stretches = [rows for rows in _iterate_stretches(log, there) if len(rows) > noise.LEAST]
     logged = np.zeros_like(log.q) if log.qd is None else log.qd
     for rows in stretches:
+        if not can_jump(log.time[rows], log.q[rows], log.channels["q"]):
+            continue
         walk = scan_jumps(log.time[rows], log.q[rows], revolute, logged[rows])
         for j, model in enumerate(log.channels["q"]):
             jumps = find_jumps(walk, log.time[rows], j, model)
