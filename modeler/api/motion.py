@@ -87,7 +87,8 @@ class Subject:
     ) -> FitResult:
         """Predicts the fit of a log of a motion; see `expected_sigmas`."""
         log = self.predict_log(motion, rate, encoders)
-        return identify(observe(self.compiled, [log]), "weighted", self.compiled)
+        rows = observe(self.compiled, [log], is_compared=False)
+        return identify(rows, "weighted", self.compiled)
 
     def predict_log(
         self, motion: excitation.ExcitingMotion, rate: float, encoders: "Encoders"
@@ -205,7 +206,8 @@ class RecordedLogs:
             noise = [noise_by_joint.get(joint.name, 0.0) for joint in compiled.spec.joints]
             encoders = Encoders(0, np.array(noise))
         log = self.subject.predict_log(motion, rate, encoders)
-        both = identify(observe(compiled, [*self.logs, log], self.processing), "weighted", compiled)
+        rows = observe(compiled, [*self.logs, log], self.processing, is_compared=False)
+        both = identify(rows, "weighted", compiled)
         before, after = self.fit.parameters, both.parameters
         gain = excitation.InformationGain(
             *(tuple(p.name for p in before), tuple(p.unit for p in before)),
@@ -225,7 +227,7 @@ def fit_recorded_logs(subject: Subject, logs: Logs, mapping: Mapped = ()) -> Rec
     compiled, read = subject.compiled, read_logs(subject.compiled, convert_to_list(logs), mapping)
     check_no_overlap(read)
     processing = build_processing(subject.robot.fit)
-    observation = observe(compiled, read, processing)
+    observation = observe(compiled, read, processing, is_compared=False)
     fit = identify(observation, "weighted", compiled)
     sigma = np.array([joint.sigma for joint in fit.joints])
     subject = dataclasses.replace(

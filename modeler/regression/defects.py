@@ -205,12 +205,11 @@ def compute_jump_floor(model: ChannelModel) -> float:
     return max(model.top_step, model.resolution)
 
 
-def can_jump(time: np.ndarray, q: np.ndarray, models: Sequence[ChannelModel]) -> bool:
-    """Returns False if `scan_jumps` of a segment finds nothing above the floors, and no turn."""
+def can_jump(time: np.ndarray, q: np.ndarray, floors: np.ndarray) -> bool:
+    """Returns False if `scan_jumps` of a segment has no excess above floors (J,), and no turn."""
     dt = np.diff(time)
-    floors = [min(compute_jump_floor(model), 0.4 * _TURN) / dt.max() for model in models]
-    slopes = np.diff(q.T) / dt
-    return any(noise.can_depart(*pair) for pair in zip(slopes, floors, strict=True))
+    least, slopes = np.minimum(floors, 0.4 * _TURN) / dt.max(), np.diff(q.T) / dt
+    return any(noise.can_depart(*pair) for pair in zip(slopes, least, strict=True))
 
 
 def _compute_excess(

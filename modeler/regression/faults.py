@@ -21,6 +21,7 @@ from modeler.regression.defects import (
     Defects,
     Kind,
     can_jump,
+    compute_jump_floor,
     find_jumps,
     find_spikes,
     scan_jumps,
@@ -168,8 +169,9 @@ def _find_all_jumps(
     there = np.isfinite(log.q).all(axis=1)
     stretches = [rows for rows in _iterate_stretches(log, there) if len(rows) > noise.LEAST]
     logged = np.zeros_like(log.q) if log.qd is None else log.qd
+    floors = np.array([compute_jump_floor(model) for model in log.channels["q"]])
     for rows in stretches:
-        if not can_jump(log.time[rows], log.q[rows], log.channels["q"]):
+        if not can_jump(log.time[rows], log.q[rows], floors):
             continue
         walk = scan_jumps(log.time[rows], log.q[rows], revolute, logged[rows])
         for j, model in enumerate(log.channels["q"]):

@@ -32,7 +32,10 @@ from modeler.runtime import CompiledModel
 
 
 def observe(
-    model: CompiledModel, logs: Sequence[Log], processing: Processing | None = None
+    model: CompiledModel,
+    logs: Sequence[Log],
+    processing: Processing | None = None,
+    is_compared: bool = True,
 ) -> Observation:
     """Returns the observation of logs: W, y, and which row is which.
 
@@ -43,6 +46,7 @@ def observe(
         model: the compiled robot.
         logs: read with the same manifest.
         processing: None: automatic. For held-out logs `report.processing` of the fit.
+        is_compared: False leaves plain filters aside, as for torques that a model made.
 
     Raises:
         DataError: no logs, of another robot, or no usable row.
@@ -51,7 +55,8 @@ def observe(
     repair = prepare.LogRepair(logs, model.spec)
     asked = choose_repairs(model, logs, processing or Processing(), repair)
     prepared = prepare.prepare_logs(model.spec, logs, asked, repair)
-    return build_observation(model, logs, choose_filters(model, logs, prepared, asked, repair))
+    filters = choose_filters(model, logs, prepared, asked, repair) if is_compared else None
+    return build_observation(model, logs, filters or limit_cutoffs(model, prepared, asked))
 
 
 _OF_FILTERS = (

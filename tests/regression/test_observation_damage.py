@@ -11,7 +11,7 @@ import pytest
 from rough_joint import KINDS, rough_log
 
 from modeler.numerics.noise import can_depart, subtract_running_median
-from modeler.regression.defects import can_leap, scan_jumps
+from modeler.regression.defects import can_jump, scan_jumps
 from modeler.regression.faults import repair_log
 from modeler.regression.log import Log
 from modeler.regression.motion import Processing
@@ -306,8 +306,8 @@ def test_what_is_passed_over_has_no_departure_and_no_leap():
             passed += 1
             assert np.abs(subtract_running_median(values)).max() <= floor
         positions, least = values[:, None], np.array([floor])
-        scan = scan_jumps(time, positions, np.ones(1, bool), np.zeros(1), np.zeros((60, 1)))
-        if not can_leap(time, positions, least):
+        scan = scan_jumps(time, positions, np.ones(1, bool), np.zeros((60, 1)))
+        if not can_jump(time, positions, least):
             passed += 1
             assert np.abs(scan.excess).max() <= floor and not scan.turns.any()
     assert 100 < passed < 500
