@@ -87,8 +87,7 @@ class Subject:
     ) -> FitResult:
         """Predicts the fit of a log of a motion; see `expected_sigmas`."""
         log = self.predict_log(motion, rate, encoders)
-        rows = observe(self.compiled, [log], is_compared=False)
-        return identify(rows, "weighted", self.compiled)
+        return identify(observe(self.compiled, [log]), "weighted", self.compiled)
 
     def predict_log(
         self, motion: excitation.ExcitingMotion, rate: float, encoders: "Encoders"

@@ -185,7 +185,7 @@ def test_what_the_windows_do_not_show_makes_a_fit_not_usable(small_windows, any_
     tau[2400:2800, 0] *= 1.5
     wrong, fit = verdict_of(log, tau=tau)
     assert fit.joints[0].relative_error > 0.03 and wrong.by_joint["1"].state == "undetermined"
-    assert "joint 1: fit error " in wrong.line and " on all rows, " in wrong.line
+    assert "joint 1 undetermined: fit error " in wrong.line and " on all rows, " in wrong.line
     # no verdict promises better than the error on all rows
     tau[2400:2800, 0] *= 1.003 / 1.5
     verdict, fit = verdict_of(log, tau=tau)
