@@ -383,7 +383,7 @@ def build_result(
         essential_error=after,
         joints=build_joint_fits(observation, data, estimate.beta, sigma_of_rows),
         parameters=every[:count],
-        covariance=estimate.covariance[:count, :count],
+        covariance=(estimate.covariance * np.outer(is_estimated, is_estimated))[:count, :count],
         loads=every[count:],
         processing=observation.report.processing,
         bands=observation.report.bands,

@@ -340,6 +340,10 @@ def _build_sections(model: IdentifiedModel) -> list[page.Section]:
     return sections
 
 
+_KINDS = {"good": "noise", "doubtful": "other", "undetermined": "pattern"}
+"""Of a joint's line of a verdict, by its state."""
+
+
 def _build_verdict_blocks(fit: FitResult) -> list[page.Verdict | page.Items]:
     blocks: list[page.Verdict | page.Items] = []
     if fit.verdict is not None:
@@ -347,6 +351,10 @@ def _build_verdict_blocks(fit: FitResult) -> list[page.Verdict | page.Items]:
         if fit.verdict.valid and not fit.verdict.is_valid_everywhere:
             kind, tag = "other", "in part"
         lines = [page.JudgedLine(kind, tag, "This fit", fit.verdict.line)]
+        lines += [
+            page.JudgedLine(_KINDS[one.state], one.state, f"Joint {name}", one.why[0])
+            for name, one in fit.verdict.by_joint.items()
+        ]
         lines += [
             page.JudgedLine("other", "doubt", f"Warning {k}", text)
             for k, text in enumerate(fit.verdict.lines, start=1)
