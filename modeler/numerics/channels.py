@@ -243,27 +243,30 @@ def find_longest_usual_run(values: np.ndarray) -> int:
 
 
 def find_frozen_runs(
-    values: np.ndarray, usual: int, position: np.ndarray, noise: float
+    values: np.ndarray, model: ChannelModel, position: np.ndarray, noise: float
 ) -> list[tuple[int, int]]:
     """Finds [start, stop) where a channel repeats a value unusually long during motion.
 
-    Not at its largest and smallest value, where it may be at a limit, and not at 0: switched off.
+    Then it goes on by more than `COARSE` lattice steps. Not at its largest and smallest value,
+    where it may be at a limit, and not at 0: switched off.
 
     Args:
         values: (n,) of the channel, without gaps.
-        usual: `stay` of the whole channel.
+        model: of the whole channel.
         position: (n,) of its joint.
         noise: of the position.
     """
     starts, length = find_run_lengths(_flag_changes(values))
-    long = length > max(THRESHOLDS.min_channel_samples, THRESHOLDS.min_frozen_length * usual)
+    least_rows = THRESHOLDS.min_frozen_length * model.stay
+    long = length > max(THRESHOLDS.min_channel_samples, least_rows)
     least = 2.0 * THRESHOLDS.min_motion_deviations * noise
     return [
-        (int(start) + 1, int(start + count))
-        for start, count in zip(starts[long], length[long], strict=True)
+        (int(start) + 1, int(stop))
+        for start, stop in zip(starts[long], (starts + length)[long], strict=True)
         if values.min() < values[start] < values.max()
         and values[start] != 0.0
-        and abs(float(position[start + count - 1] - position[start])) > least
+        and abs(float(position[stop - 1] - position[start])) > least
+        and np.any(np.abs(values[stop : stop + 1] - values[start]) > COARSE * model.step)
     ]
 
 

@@ -295,7 +295,7 @@ def check_derivatives(
     contradictions: list[Contradiction] = []
     late: list[DerivativeDelay] = []
     levels: tuple[tuple[Column, str], ...] = (("qd", "q"), ("qdd", "qd"))
-    models = log.model_channels()
+    models = log.channel_models
     for column, lower in levels:
         if not pieces or getattr(pieces[0], column) is None:
             break

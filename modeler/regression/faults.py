@@ -89,7 +89,8 @@ def repair_log(
         longest = 1.5 * log.step + float(steps[steps <= RESTS * np.median(steps)].max())
         rate = float(np.quantile(steps, THRESHOLDS.step_quantile)), longest
         fresh = dataclasses.replace(cut_rows(log, kept_rows), robot_steps=rate)
-    models = cut_rows(log, ~again).model_channels() if scales is None else scales.channels
+    once = cut_rows(log, ~again) if again.any() else log
+    models = once.channel_models if scales is None else scales.channels
     fresh = dataclasses.replace(fresh, channels=models)
     clipped = [_find_clipped(*of) for of in zip(fresh.q.T, models["q"], strict=True)]
     q = _remove_defects(fresh.q, mended_by("q", clipped))
@@ -153,7 +154,7 @@ def _find_frozen(log: Log) -> list[list[Defect]]:
     models = zip(log.channels["tau"], log.channels["q"], strict=True)
     for tau, q, (torque, position) in zip(log.tau.T, log.q.T, models, strict=True):
         rows = np.flatnonzero(np.isfinite(tau) & np.isfinite(q))
-        known = tau[rows], torque.stay, q[rows], position.noise
+        known = tau[rows], torque, q[rows], position.noise
         stuck = find_frozen_runs(*known) if rows.size else []
         every = [Defect("frozen", *run, 0.0) for run in stuck]
         frozen.append([_locate_defect(one, rows, log) for one in every])

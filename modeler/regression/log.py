@@ -135,8 +135,9 @@ class Log(Result):
         every = {"q": self.q, "tau": self.tau, "qd": self.qd, "qdd": self.qdd}
         return {name: values for name, values in every.items() if values is not None}
 
-    def model_channels(self) -> ChannelModels:
-        """Returns how each channel was sampled."""
+    @cached_property
+    def channel_models(self) -> ChannelModels:
+        """Returns how each channel was sampled; of a part of a log what is known of the whole."""
         if self.channels:
             return self.channels
         columns = {name: values.T for name, values in self.measured.items()}
@@ -316,7 +317,7 @@ def split_log(
     motion = [log.q, *(m for m in (log.qd, log.qdd) if logged_motion and m is not None)]
     rows = np.flatnonzero(np.all([np.isfinite(m).all(axis=1) for m in motion], axis=0))
     ends = [None] * log.tau.shape[1] if extremes is None else extremes
-    models = log.model_channels()
+    models = log.channel_models
     pairs = zip(models["tau"], models["q"], strict=True)
     parts = zip(log.tau.T, log.q.T, pairs, ends, strict=True)
     clipped = np.column_stack([find_saturated(*part) for part in parts])
