@@ -304,19 +304,20 @@ def _find_spike(walk: EncoderJumpScan, j: int, k: int, later: list[int]) -> Defe
 
 
 def _is_row_loss(walk: EncoderJumpScan, k: int) -> bool:
-    """Returns True if the same lost time explains the jumps of all joints between two samples."""
-    speed, excess = walk.speed[k], walk.excess[k]
-    size = float(np.linalg.norm(excess))
+    """Returns True if the same lost time explains the jumps of all joints between two samples.
+
+    Of several joints two leap at least: one that leaps alone has another zero.
+    """
     # Way is compared in each joint's own motion: a slider's metres and radians do not add.
     typical = np.sqrt(np.mean(walk.speed**2, axis=0))
     moving = typical > 0.0
-    if size == 0.0 or not moving.any():
+    v, e = walk.speed[k, moving] / typical[moving], walk.excess[k, moving] / typical[moving]
+    size = float(np.linalg.norm(e))
+    leaping = np.count_nonzero(np.abs(e) > THRESHOLDS.min_shared_leap * size)
+    if size == 0.0 or leaping < min(2, len(e)):
         return False
-    v, e = speed[moving] / typical[moving], excess[moving] / typical[moving]
     lost = float(v @ e) / max(float(v @ v), 1e-300)
-    return lost > 0.0 and float(np.linalg.norm(e - lost * v)) < THRESHOLDS.catch_up_share * float(
-        np.linalg.norm(e)
-    )
+    return lost > 0.0 and float(np.linalg.norm(e - lost * v)) < THRESHOLDS.catch_up_share * size
 
 
 Defects = dict[str, list[list[Defect]]]

@@ -320,7 +320,8 @@ def split_log(
     models = log.channel_models
     pairs = zip(models["tau"], models["q"], strict=True)
     parts = zip(log.tau.T, log.q.T, pairs, ends, strict=True)
-    clipped = np.column_stack([find_saturated(*part) for part in parts])
+    late = np.diff(log.time, prepend=log.time[0]) > THRESHOLDS.late_steps * log.step
+    clipped = np.column_stack([find_saturated(*part, late) for part in parts])
     steps, stamps = np.diff(log.time[rows]), np.diff(log.time)
     cut = gap = steps > log.gap
     inside = stamps[stamps <= log.gap]
@@ -442,6 +443,7 @@ def find_saturated(
     position: np.ndarray,
     models: tuple[ChannelModel, ChannelModel],
     extremes: tuple[float, float] | None = None,
+    late: np.ndarray | None = None,
 ) -> np.ndarray:
     """Returns samples at which a torque is clipped; (n,) bool.
 
@@ -457,6 +459,7 @@ def find_saturated(
         position: (n,) of the joint.
         models: of the torque and of the position.
         extremes: smallest and largest value of the log elsewhere, of which these are a part.
+        late: (n,) True at samples that follow a gap, across which nothing leaps; None: none.
     """
     is_saturated = np.zeros(len(values), dtype=bool)
     low = float(np.fmin.reduce(values, initial=np.inf))
@@ -477,7 +480,9 @@ def find_saturated(
     several = len(np.unique(values[np.isfinite(values)])) > THRESHOLDS.max_switched_values
     resolution = models[0].step if several else 0.0
     for extreme, (start, stop) in [(end, run) for end, run in runs if end in moved]:
-        beside = [values[i] for i in (start - 1, stop) if 0 <= i < len(values)]
+        sides = [(start, start - 1), (stop, stop)]
+        inside = [(after, at) for after, at in sides if 0 <= at < len(values)]
+        beside = [values[at] for after, at in inside if late is None or not late[after]]
         leap = max((abs(extreme - v) for v in beside if np.isfinite(v)), default=0.0)
         if leap > THRESHOLDS.min_saturated_jump * resolution:
             is_saturated[start:stop] = True

@@ -149,6 +149,8 @@ class Thresholds:
     """Of the larger jump, that two jumps there and back leave."""
     catch_up_share: float = 0.5
     """To which a jump makes up for frozen samples or lost rows."""
+    min_shared_leap: float = 0.1
+    """Of the leap of all joints, in each one's own speed, of a joint that leaps too. No study."""
     turn_tolerance: float = 0.1
     """Share of a turn by which a jump may miss a whole turn: what a joint moves meanwhile."""
     late_steps: float = 2.0
