@@ -38,6 +38,11 @@ class RowFilter(ShortRepr):
     weights: csr_array
     centres: np.ndarray
 
+    @property
+    def kernels(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Returns the weights of all rows, their samples, and where each row's begin."""
+        return self.weights.data, self.weights.indices, self.weights.indptr
+
     def average_samples(self, values: np.ndarray, usable: np.ndarray) -> np.ndarray:
         """Averages values (samples, ...) over usable (samples,) by row: (rows, ...), 0 without any.
 
@@ -101,9 +106,9 @@ def build_row_filter(centres: np.ndarray, samples: int, step: float, cutoff: flo
     bell = bell / bell.sum()
     places = centres[:, None] + offsets
     there = (places >= 0) & (places < samples)
-    row, tap = np.nonzero(there)
-    weights = csr_array((bell[tap], (row, places[there])), shape=(len(centres), samples))
-    return RowFilter(weights, centres)
+    starts = np.append(0, np.cumsum(there.sum(axis=1)))
+    weights = np.broadcast_to(bell, there.shape)[there], places[there], starts
+    return RowFilter(csr_array(weights, shape=(len(centres), samples)), centres)
 
 
 def compute_moving_means(values: np.ndarray, step: float, cutoff: float) -> np.ndarray:

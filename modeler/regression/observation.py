@@ -42,6 +42,7 @@ from modeler.runtime import (
     CompiledModel,
     NonzeroPattern,
     Triangles,
+    average_rows,
     make_empty_triangles,
     reduce_rows,
 )
@@ -204,10 +205,9 @@ class ModelRegressor:
         """Returns triangles with the rows of a segment added; as `add_stretch`."""
         s, model = part.segment, self._model
         if model.has_entries:
-            motion, weights = (s.q, s.qd, s.qdd), part.rows.weights
-            kernels = weights.data, weights.indices, weights.indptr
+            motion = s.q, s.qd, s.qdd
             return model.mean_triangles(
-                motion, self._signals[s], torque, kernels, part.usable, use, state
+                motion, self._signals[s], torque, part.rows.kernels, part.usable, use, state
             )
         for rows, columns in part.iterate_blocks(
             partial(self, s), THRESHOLDS.triangle_block_samples, self.pattern.spans
@@ -215,20 +215,6 @@ class ModelRegressor:
             used = np.ascontiguousarray(use[rows])
             state = reduce_rows(state.pattern, columns, torque[rows], used, state)
         return state
-
-    def compute_triangles(
-        self, part: FilteredSegment, use: np.ndarray, state: Triangles | None
-    ) -> Triangles:
-        """Returns triangles of the rows of a segment whose rows are samples; use (rows, n) bool."""
-        some = np.flatnonzero(use.any(axis=1))
-        s, w = part.segment, part.rows.centres[some]
-        part_triangles = self._model.triangles(
-            s.q[w], s.qd[w], s.qdd[w], s.tau[w], use[some], self._read_signals(s, w), state=state
-        )
-        if part_triangles.left_out.any():  # the regressor says of which sample, and why
-            bad = part.rows.centres[some][part_triangles.left_out]
-            self._model.base_regressor(s.q[bad], s.qd[bad], s.qdd[bad], self._read_signals(s, bad))
-        return part_triangles
 
     def _read_signals(self, s: Segment, w: slice | np.ndarray) -> np.ndarray | None:
         read = self._signals[s]
@@ -330,11 +316,9 @@ def assemble_observation(
 
 def _filter_motion(part: FilteredSegment) -> np.ndarray:
     """Returns (rows, 3, joints) q, qd, qdd over all whole samples."""
-    s, means = part.segment, []
-    for rows, w, _ in part.iterate_parts():
-        motion = np.stack([s.q[w], s.qd[w], s.qdd[w]], axis=1)
-        means.append(rows.average_samples(motion, s.whole[w]))
-    return np.concatenate(means)
+    s, every = part.segment, np.ones((len(part.used), 3), dtype=bool)
+    motion, usable = np.stack([s.q, s.qd, s.qdd], axis=1), np.stack([s.whole] * 3, axis=1)
+    return average_rows(part.rows.kernels, motion, usable, every, s.whole)
 
 
 # Why a row does not count, for those who draw it.
@@ -423,9 +407,7 @@ def evaluate_columns_at(observation: Observation, places: np.ndarray) -> np.ndar
     columns = []
     for part, part_rows in _iterate_stretches(observation):
         rows = places[(places >= part_rows.start) & (places < part_rows.stop)] - part_rows.start
-        if is_unfiltered(part):
-            columns.append(observation.regressor(part.segment, part.rows.centres[rows]))
-        elif rows.size:
+        if rows.size:
             columns.append(part.filter_rows(rows, partial(observation.regressor, part.segment)))
     return np.concatenate(columns)
 
@@ -468,14 +450,7 @@ def add_stretch(
     """
     if not keep.any():
         return state
-    if is_unfiltered(part):
-        return regressor.compute_triangles(part, keep, state)
     return regressor.add_means(part, torque, keep, state)
-
-
-def is_unfiltered(part: FilteredSegment) -> bool:
-    """Returns True if the rows of a segment are samples: no parallel filter."""
-    return len(part.rows.weights.data) == len(part.rows.centres)
 
 
 def _iterate_stretches(observation: Observation) -> Iterator[tuple[FilteredSegment, slice]]:

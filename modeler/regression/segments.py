@@ -410,6 +410,9 @@ class FilteredSegment(ShortRepr):
     ) -> Iterator[tuple[filters.RowFilter, slice, slice]]:
         """Yields filters of a few rows each, the samples they reach, and which rows they are."""
         total, count = len(self.rows.centres), max(1, samples // self.decimation)
+        if 0 < total <= count:
+            yield self.rows, slice(0, self.segment.samples), slice(0, total)
+            return
         for first in range(0, total, count):
             rows = slice(first, min(first + count, total))
             window = self.rows.find_sample_range(rows)
@@ -424,9 +427,8 @@ class FilteredSegment(ShortRepr):
         spans: Sequence[slice] | None = None,
     ) -> np.ndarray:
         """Returns means over usable samples where the row counts, over whole samples elsewhere."""
-        weights = part.weights.data, part.weights.indices, part.weights.indptr
         usable, whole = self.usable[window], self.segment.whole[window]
-        return average_rows(weights, values, usable, used, whole, spans)
+        return average_rows(part.kernels, values, usable, used, whole, spans)
 
 
 def filter_segment(

@@ -412,17 +412,8 @@ class SampleArrays(NamedTuple):
         return SampleArrays._make(None if array is None else array[block] for array in self)
 
 
-class MeanArrays(NamedTuple):
-    """Arrays of one call, C-contiguous; see `modeler_means`."""
-
-    weight: np.ndarray
-    sample: np.ndarray
-    start: np.ndarray
-    usable: np.ndarray
-    used: np.ndarray
-    whole: np.ndarray | None = None
-    span: np.ndarray | None = None
-    values: np.ndarray | None = None
+Means = Mapping[str, np.ndarray]
+"""Arrays of `modeler_means` by name, C-contiguous; `used` is (rows, joints)."""
 
 
 class FusedLibrary:
@@ -533,16 +524,15 @@ class FusedLibrary:
         )
         return int(added[0]), int(left)
 
-    def average_rows(self, means: MeanArrays, columns: int, level: int, out: np.ndarray) -> None:
+    def average_rows(self, means: Means, level: int, out: np.ndarray) -> None:
         """Fills means of samples.
 
         Args:
             means: which.
-            columns: of the values of a joint.
             level: of instructions.
             out: (rows, joints, columns).
         """
-        fields = self._make_means(means, columns)
+        fields = self._make_means(means, out[0, 0].size if out.size else 0)
         self._library.modeler_row_means(fields, level, self._make_pointer(out))
 
     def add_means(
@@ -550,7 +540,7 @@ class FusedLibrary:
         rows_of_entries: np.ndarray,
         functions: EntryFunctions,
         samples: SampleArrays,
-        means: MeanArrays,
+        means: Means,
         level: int,
         state: np.ndarray,
         rows: np.ndarray,
@@ -567,8 +557,8 @@ class FusedLibrary:
             rows: (joints,) of numpy.uintp, increased.
         """
         source = self._make_source(rows_of_entries, functions, samples.q.shape[1])
-        first, last = means.sample[means.start[:-1]], means.sample[means.start[1:] - 1]
-        window = int((last - first).max()) + 1
+        sample, start = means["sample"], means["start"]
+        window = int((sample[start[1:] - 1] - sample[start[:-1]]).max()) + 1
         work = self._allocate_work(self._library.modeler_mean_work(source, window))
         self._library.modeler_mean_triangles(
             source,
@@ -581,10 +571,10 @@ class FusedLibrary:
             self._make_pointer(work),
         )
 
-    def _make_means(self, means: MeanArrays, columns: int = 0) -> Any:
-        sizes = {"rows": len(means.used), "joints": means.used.shape[1], "columns": columns}
-        arrays = {name: self._make_pointer(array) for name, array in means._asdict().items()}
-        return self._ffi.new("modeler_means *", sizes | arrays)
+    def _make_means(self, means: Means, columns: int = 0) -> Any:
+        sizes = dict(zip(("rows", "joints"), means["used"].shape, strict=True))
+        arrays = {name: self._make_pointer(array) for name, array in means.items()}
+        return self._ffi.new("modeler_means *", {**sizes, "columns": columns, **arrays})
 
     def _make_source(
         self, rows_of_entries: np.ndarray, functions: EntryFunctions, joints: int

@@ -20,7 +20,6 @@ from modeler.runtime.bind import (
     EntryFunctions,
     FusedLibrary,
     Library,
-    MeanArrays,
     SampleArrays,
     TileLibrary,
     check_mask,
@@ -239,25 +238,22 @@ def average_rows(
         level: of instructions; 0: the best of this processor.
     """
     values = np.ascontiguousarray(values, dtype=float)
-    out, columns = (
-        np.zeros((len(used), *values.shape[1:])),
-        int(np.prod(values.shape[2:], dtype=int)),
-    )
-    ends = (
-        [(0, columns)] * used.shape[1] if spans is None else [(s.start or 0, s.stop) for s in spans]
-    )
-    means = _prepare_means(weights, usable, used)._replace(
-        whole=np.ascontiguousarray(whole), span=np.array(ends, dtype=np.intc), values=values
-    )
-    bind.load_fused_library().average_rows(means, columns, level, out)
+    out = np.zeros((len(used), *values.shape[1:]))
+    columns = int(np.prod(values.shape[2:], dtype=int))
+    ends = [(s.start or 0, s.stop) for s in spans or [slice(columns)] * used.shape[1]]
+    means = _prepare_means(weights, usable, used) | {"values": values}
+    means |= {"whole": np.ascontiguousarray(whole), "span": np.array(ends, dtype=np.intc)}
+    bind.load_fused_library().average_rows(means, level, out)
     return out
 
 
-def _prepare_means(weights: Weights, usable: np.ndarray, used: np.ndarray) -> MeanArrays:
-    weight, *numbers = weights
-    integers = (np.ascontiguousarray(array, np.intc) for array in numbers)
-    flags = (np.ascontiguousarray(array, bool) for array in (usable, used))
-    return MeanArrays(weight, *integers, *flags)
+def _prepare_means(weights: Weights, usable: np.ndarray, used: np.ndarray) -> dict[str, np.ndarray]:
+    weight, sample, start = weights
+    integers = {"sample": sample, "start": start}
+    flags = {"usable": usable, "used": used}
+    means = {name: np.ascontiguousarray(array, np.intc) for name, array in integers.items()}
+    means |= {name: np.ascontiguousarray(array, bool) for name, array in flags.items()}
+    return means | {"weight": weight}
 
 
 def _merge_blocks(
