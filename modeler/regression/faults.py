@@ -231,7 +231,7 @@ def _find_spikes(log: Log) -> Defects:
         rows = [part for part in _iterate_stretches(log, there) if len(part) >= noise.LEAST]
         parts = [values[part] for part in rows]
         spikes = find_spikes(parts, log.channels[name])
-        if name == "tau":
+        if name == "tau" and any(map(any, spikes)):
             speeds = [np.gradient(log.q[part], log.time[part], axis=0) for part in rows]
             spikes = select_unexplained(spikes, parts, speeds)
         by_channel[name] = [_locate_defects(part, rows, log) for part in spikes]

@@ -403,7 +403,8 @@ class FilteredSegment(ShortRepr):
 
     def filter_torque(self) -> np.ndarray:
         """Returns (rows, joints) filtered torque."""
-        return self.filter_columns(lambda window: self.segment.tau[window])
+        s = self.segment
+        return average_rows(self.rows.kernels, s.tau, self.usable, self.used, s.whole)
 
     def iterate_parts(
         self, samples: int = THRESHOLDS.filter_block_samples
