@@ -9,7 +9,6 @@ direction. Where positions close loops, a factor of the stated gravity is all th
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from scipy.sparse import block_diag, csr_array
@@ -19,7 +18,7 @@ from modeler.estimation.physical_consistency import PhysicalParameters, define_p
 from modeler.estimation.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel, average_rows
 
-_CLOCKS = (2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # are off by
+_CLOCKS = (2.0, 0.5, 5.0, 10.0, 20.0, 50.0, 100.0, 0.2, 0.1, 0.05, 0.02, 0.01)  # are off by
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,11 +58,16 @@ class ThinnedRows:
         every, none = np.ones(self.used.shape, dtype=bool), np.zeros(len(values), dtype=bool)
         return average_rows(weights, values, self.usable, every, none, spans)
 
-    def transform_columns(self, compiled: CompiledModel, how: "MotionTransform") -> np.ndarray:
-        """Returns (m, n, c) columns of the motion with other positions, or by another clock."""
+    def transform_columns(
+        self, compiled: CompiledModel, how: "MotionTransform", beta: np.ndarray | None = None
+    ) -> np.ndarray:
+        """Returns (m, n, c) columns of the motion with other positions, or by another clock.
+
+        With parameters beta (c,) their torques, (m, n).
+        """
         q, qd, qdd = self.motion @ how.motion
         moved = q + how.offset, how.speed * qd, how.speed**2 * qdd
-        return self._filter_function(compiled, compiled.base_regressor, moved)
+        return self._evaluate_columns(compiled, moved, beta)
 
     def shift_columns(
         self, compiled: CompiledModel, shift: np.ndarray, beta: np.ndarray | None = None
@@ -80,24 +84,20 @@ class ThinnedRows:
             a, b = (below, joint), (below + 1, joint)
             motion = [x[a] * (1.0 - above) + x[b] * above for x in (s.q, s.qd, s.qdd)]
             motions.append(np.stack(motion))
+        return self._evaluate_columns(compiled, np.concatenate(motions, axis=1), beta)
 
-        def compute_torque(q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, read: Any) -> np.ndarray:
-            return compiled.inverse_dynamics(q, qd, qdd, beta, read)
-
-        of: Callable[..., np.ndarray] = compiled.base_regressor if beta is None else compute_torque
-        return self._filter_function(compiled, of, np.concatenate(motions, axis=1))
-
-    def _filter_function(
-        self, compiled: CompiledModel, of: Callable[..., np.ndarray], motion: Iterable[np.ndarray]
+    def _evaluate_columns(
+        self, compiled: CompiledModel, motion: Iterable[np.ndarray], beta: np.ndarray | None
     ) -> np.ndarray:
-        """Returns (m, n, ...) filtered values of a function of a motion of the samples."""
+        """Returns (m, n, c) filtered columns of a motion of the samples; with beta (m, n)."""
         q, qd, qdd = motion
-        nearest = regression.find_nearest_closed(
-            compiled, q
-        )  # a motion that was changed may leave the loops
+        nearest = regression.find_nearest_closed(compiled, q)  # a changed one may leave the loops
         if nearest is not None:
             q = np.ascontiguousarray(q[nearest])
-        values = of(q, qd, qdd, self.read)
+        if beta is None:
+            values = compiled.base_regressor(q, qd, qdd, self.read)
+        else:
+            values = compiled.inverse_dynamics(q, qd, qdd, beta, self.read)
         return self._average_rows(values, compiled.pattern.spans if values.ndim == 3 else None)
 
 
@@ -154,10 +154,12 @@ class MotionTransform:
     speed: float = 1.0
 
 
-def propose_clocks(observation: regression.Observation) -> Iterator[MotionTransform]:
-    """Yields all motion faster or slower than it is logged."""
+def propose_clocks(
+    observation: regression.Observation, nearest_only: bool = False
+) -> Iterator[MotionTransform]:
+    """Yields all motion faster or slower than it is logged, or twice and half as fast only."""
     same = np.eye(len(observation.joints))
-    for speed in _CLOCKS:
+    for speed in _CLOCKS[:2] if nearest_only else _CLOCKS:
         line = (
             f"the clock seems to be wrong: with all motion {speed:g} times as fast, torques are "
             "those of a machine; check the time column, its unit and rate"
@@ -165,7 +167,7 @@ def propose_clocks(observation: regression.Observation) -> Iterator[MotionTransf
         yield MotionTransform(line, same, np.zeros(len(same)), np.arange(len(same)), speed)
 
 
-def propose_zero(observation: regression.Observation, j: int, degrees: int) -> MotionTransform:
+def propose_zero(observation: regression.Observation, j: int, degrees: float) -> MotionTransform:
     """Returns positions of a joint that turns, counted from another zero."""
     line = (
         f"joint {observation.joints[j].name}: its zero seems to be off by {degrees} degrees, by "
@@ -175,15 +177,15 @@ def propose_zero(observation: regression.Observation, j: int, degrees: int) -> M
     return MotionTransform(line, same, -np.deg2rad(degrees) * same[j], np.arange(len(same)))
 
 
-def propose_transforms(
-    observation: regression.Observation, zeros_only: bool = False
-) -> Iterator[MotionTransform]:
-    """Yields positions from another zero; in other units, reversed, exchanged, torques too."""
+def propose_zeros(observation: regression.Observation) -> Iterator[MotionTransform]:
+    """Yields positions of each joint that turns, from zeros a quarter or half a turn off."""
     for j, joint in enumerate(observation.joints):
         for degrees in (90, -90, 180) if joint.unit == "rad" else ():
             yield propose_zero(observation, j, degrees)
-    if zeros_only:
-        return
+
+
+def propose_transforms(observation: regression.Observation) -> Iterator[MotionTransform]:
+    """Yields positions in other units, reversed, exchanged, torques too."""
     joints, names = observation.joints, [joint.name for joint in observation.joints]
     same, none = np.arange(len(joints)), np.zeros(len(joints))
     expected = "expected rad and m; convert the position, and the speeds if they are logged"

@@ -6,15 +6,17 @@ A fault is a hypothesis: undo it, and what a machine leaves of the torques of jo
 
 falls. beta is that of the physically consistent parameters nearest to a fit in which every joint
 weighs 1 / e_j^2, so that sum_j log e_j is least, or that of a model whose torques are compared. A
-fault is reported if it lowers that sum by log 3 or more, halves the error of a joint, and does so
-as well as any other. Whether it is detectable can be computed beforehand: made of the torques of
-the machine itself, a fault that raises the sum by less is one that these logs cannot show.
+fault is reported if it lowers that sum enough, and does so as well as any other. A fault with a
+value that is fitted explains physics that the model lacks, too: it must explain more, and a delay
+must lower the error in every block of time, predicted from the others. What would stay unseen can
+be computed: the size at which a fault raises the error of a joint by a third, beside a refit.
 """
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,6 +29,7 @@ from modeler.estimation.gravity import (
     propose_clocks,
     propose_transforms,
     propose_zero,
+    propose_zeros,
     thin_rows,
 )
 from modeler.estimation.model_file import IdentifiedModel
@@ -93,9 +96,10 @@ class ResidualModel:
         weights = np.ones(len(data.gram))
         if self.beta is not None:
             return self.beta, weights
+        prior = np.einsum("kcc->c", data.gram) / THRESHOLDS.max_thinned_rows
         for _ in range(THRESHOLDS.fault_reweightings):
             gram, cross = np.tensordot(weights, data.gram, 1), weights @ data.cross
-            beta = _solve_normal_equations(gram, cross)
+            beta = _solve_normal_equations(gram, cross, prior)
             weights = 1.0 / np.maximum(data.compute_errors(beta), THRESHOLDS.min_error) ** 2
         return beta, weights
 
@@ -116,8 +120,14 @@ class ResidualModel:
         return beta if nearest is None else nearest.beta
 
 
-def _solve_normal_equations(gram: np.ndarray, cross: np.ndarray) -> np.ndarray:
-    """Returns the solution, to a few digits; a ridge for what the data cannot determine."""
+def _solve_normal_equations(
+    gram: np.ndarray, cross: np.ndarray, prior: np.ndarray | float = 0.0
+) -> np.ndarray:
+    """Returns the solution, to a few digits; a ridge for what data and prior leave open.
+
+    The prior (c,) is added to the diagonal: each parameter alone makes no more torque than all.
+    """
+    gram = gram + np.diag(prior + np.zeros(len(gram)))
     size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     scaled = gram / np.outer(size, size) + THRESHOLDS.normal_equation_ridge * np.eye(len(gram))
     return np.asarray(np.linalg.solve(scaled, cross / size) / size)
@@ -125,14 +135,6 @@ def _solve_normal_equations(gram: np.ndarray, cross: np.ndarray) -> np.ndarray:
 
 def _compute_log_error(errors: np.ndarray) -> float:
     return float(np.sum(np.log(np.maximum(errors, THRESHOLDS.min_error))))
-
-
-def _compute_evidence(without: np.ndarray, with_it: np.ndarray) -> float:
-    """Returns what a fault adds to the sum of logarithms; 0 if it doubles the error of no joint."""
-    least = THRESHOLDS.min_error
-    halved = THRESHOLDS.max_repaired_error * np.maximum(with_it, least)
-    doubles = np.maximum(without, least) <= halved
-    return _compute_log_error(with_it) - _compute_log_error(without) if doubles.any() else 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,7 +145,7 @@ class Hypothesis:
         fault: in words.
         data: of the log with the fault undone.
         joints: that it concerns; empty: all.
-        min_evidence: what it must add to the sum of logarithms.
+        min_evidence: by which it must lower the sum of logarithms, of the fit too.
         judge: of its columns, where they are not those of the robot.
     """
 
@@ -183,11 +185,22 @@ class Evidence:
         return self.judge.compute_errors(self.data)
 
     @cached_property
+    def free_errors(self) -> np.ndarray:
+        """Returns the errors (k,) that a fit leaves of the log as it is, of any parameters."""
+        return self.judge.compute_errors(self.data, possible=False)
+
+    @cached_property
     def has_large_errors(self) -> bool:
         """Returns True if much is left, or consistent parameters leave far more than the fit."""
-        free = self.judge.compute_errors(self.data, possible=False)
-        suspicious = bool(self.errors.max() > THRESHOLDS.suspicious_error)
-        return suspicious or _compute_evidence(free, self.errors) > THRESHOLDS.min_evidence
+        lost = _compute_log_error(self.errors) - _compute_log_error(self.free_errors)
+        return (
+            bool(self.errors.max() > THRESHOLDS.suspicious_error) or lost > THRESHOLDS.min_evidence
+        )
+
+    @cached_property
+    def residual(self) -> np.ndarray:
+        """Returns `predict_blocks` of the log as it is."""
+        return self.predict_blocks(self.rows.W)
 
     @property
     def is_tree(self) -> bool:
@@ -204,6 +217,23 @@ class Evidence:
         """Builds the equations of W (m, n, c), with the measured torques or others (m, n)."""
         tau, used = self.rows.tau if tau is None else tau, self.rows.used if used is None else used
         return _build_normal_equations(W, tau, used, self.joints)
+
+    def predict_blocks(self, W: np.ndarray) -> np.ndarray:
+        """Returns (blocks, k) squares of what fits of W (m, n, c) to the other blocks leave."""
+        squares = []
+        for block in np.array_split(np.arange(len(W)), THRESHOLDS.time_blocks):
+            others = self.rows.used.copy()
+            others[block] = False
+            beta, _ = self.judge.solve(self.build_equations(W, used=others))
+            left = self.normalize(self.rows.tau - W @ beta)
+            squares.append(np.sum(left[block] ** 2, axis=0))
+        return np.stack(squares)
+
+    def normalize(self, torque: np.ndarray) -> np.ndarray:
+        """Returns (m, k) the rows of torques (m, n) that count, over the length of the measured."""
+        every = (np.where(self.rows.used, x, 0.0)[:, self.joints] for x in (torque, self.rows.tau))
+        some, measured = every
+        return np.asarray(some / _compute_lengths(measured))
 
 
 def _gather_evidence(
@@ -255,9 +285,8 @@ def find_log_faults(
 
 def _select_hypothesis(seen: Evidence) -> Hypothesis | None:
     """Returns the hypothesis that explains most, with those that do as well in its words."""
-    gravities = [*_propose_gravity_faults(seen)]
-    tried = [*_propose_torque_faults(seen), *gravities]
-    tried += _propose_motion_faults(seen, bool(gravities))
+    tried = [*_propose_torque_faults(seen), *_propose_gravity_faults(seen)]
+    tried += _propose_motion_faults(seen)
     scores = map_parts(partial(_compute_reduction, seen), tried)
     pairs = zip(scores, tried, strict=True)
     candidates = [(score, one) for score, one in pairs if score >= one.min_evidence]
@@ -277,14 +306,20 @@ def _select_hypothesis(seen: Evidence) -> Hypothesis | None:
 
 
 def _compute_reduction(seen: Evidence, one: Hypothesis) -> float:
-    """Returns by how much a hypothesis lowers the sum of logarithms; 0 if it is none."""
-    score = 0.0
-    for possible in (False, True):  # consistent parameters leave more, and take longer
-        errors = (one.judge or seen.judge).compute_errors(one.data, possible)
-        score = _compute_evidence(errors, seen.errors)
-        if score < one.min_evidence or errors.max() > THRESHOLDS.wrong_channel_error:
-            return 0.0
-    return score
+    """Returns by how much a hypothesis lowers the sum of logarithms; -inf if it is none.
+
+    Where consistent parameters alone are better by it, and not the fit itself, it must be more.
+    """
+    judge, before = one.judge or seen.judge, _compute_log_error(seen.errors)
+    errors, least = judge.compute_errors(one.data, possible=False), one.min_evidence
+    reached = _compute_log_error(errors)
+    if _compute_log_error(seen.free_errors) - reached < least:
+        least = THRESHOLDS.min_evidence
+    if before - reached >= least:  # consistent parameters leave more, and take longer
+        errors = judge.compute_errors(one.data)
+        reached = _compute_log_error(errors)
+    explains = before - reached >= least and errors.max() <= THRESHOLDS.wrong_channel_error
+    return before - reached if explains else -np.inf
 
 
 def _propose_torque_faults(seen: Evidence) -> Iterator[Hypothesis]:
@@ -355,7 +390,7 @@ def _propose_sign_faults(seen: Evidence) -> Iterator[Hypothesis]:
             scores[subset] = _compute_log_error(seen.judge.compute_errors(data, possible=False))
         else:
             scores[subset] = scores[rest]
-    least = _compute_log_error(seen.errors) + np.log(THRESHOLDS.max_repaired_error)
+    least = _compute_log_error(seen.errors) - THRESHOLDS.min_evidence
     plausible = [subset for subset, score in scores.items() if score <= least]
     plausible.sort(key=lambda subset: (round(scores[subset], 1), len(subset)))
     for subset in plausible[: THRESHOLDS.max_sign_subsets]:
@@ -399,19 +434,24 @@ def _propose_gravity_faults(seen: Evidence) -> Iterator[Hypothesis]:
         yield Hypothesis(fault, combine_axes(g), judge=judge)
 
 
-def _propose_motion_faults(seen: Evidence, clocked: bool) -> Iterator[Hypothesis]:
+def _propose_motion_faults(seen: Evidence) -> Iterator[Hypothesis]:
     """Yields positions in other units, reversed, exchanged, from another zero; what comes late.
 
-    Other clocks where much is left, or where gravity looks like another.
+    All of them where much is left; else zeros and the clock.
     """
-    large = seen.has_large_errors
-    tried = [*propose_clocks(seen.observation)] if large or clocked else []
-    tried += propose_transforms(seen.observation, zeros_only=not large) if seen.is_tree else []
+    large, observation = seen.has_large_errors, seen.observation
+    likely = [*propose_clocks(observation, nearest_only=not large)]
+    likely += propose_zeros(observation) if seen.is_tree else []
+    others = [*propose_transforms(observation)] if seen.is_tree and large else []
+    least = [THRESHOLDS.min_evidence_without_value] * len(likely)
+    least += [THRESHOLDS.min_evidence] * len(others)
+    tried = [*likely, *others]
     equations = map_parts(partial(_transform_rows, seen), tried)
-    for transform, data in zip(tried, equations, strict=True):
+    for transform, data, evidence in zip(tried, equations, least, strict=True):
         if data is not None:
             code = "positions" if transform.speed == 1.0 else "clock"
-            yield Hypothesis(DataWarning(transform.line, True, code=code), data)
+            fault = DataWarning(transform.line, True, code=code)
+            yield Hypothesis(fault, data, min_evidence=evidence)
     if seen.judge.beta is None:
         yield from _propose_delays(seen)
 
@@ -425,9 +465,22 @@ def _transform_rows(seen: Evidence, transform: MotionTransform) -> NormalEquatio
     return seen.build_equations(W, tau[:, transform.torque], used)
 
 
-_STARTS = (-0.1, -0.05, 0.05, 0.1)  # s; a step along the slope goes astray from farther away
+_STARTS = (-0.04, -0.012, 0.012, 0.04, -0.1, 0.1)  # s; the last where torques are missed by far
 _DECAY = tuple(zip(*np.polynomial.laguerre.laggauss(5), strict=True))
 """Of 1/(tau s + 1) = int exp(-u) exp(-u tau s) du: delays over tau, and their weights."""
+
+
+class _Kind(NamedTuple):
+    """Describes a fault whose size is stated: what it is, its unit, the largest that is stated."""
+
+    what: str
+    unit: str
+    largest: float
+
+
+_DELAY = _Kind("torque delays", "ms", 1e3 * THRESHOLDS.max_delay)
+_SCALE = _Kind("scale errors of the torque", "%", 100.0)
+_ZERO = _Kind("zero errors", "degrees", 90.0)
 
 Columns = Callable[[float, np.ndarray | None], np.ndarray]
 """(m, n, c) columns with a channel taken some seconds later; with beta (c,) torques (m, n)."""
@@ -443,6 +496,7 @@ class _Channel:
         sign: of its lateness, by the shift of the motion.
         seen: its rows.
         shifts: (n, n) how much the motion of all joints is shifted in the rows of each joint.
+        places: of the joints whose errors it lowers.
         is_torque: True if it may be filtered instead.
     """
 
@@ -451,6 +505,7 @@ class _Channel:
     sign: float
     seen: Evidence
     shifts: np.ndarray
+    places: list[int]
     is_torque: bool = False
 
     def shift_columns(self, seconds: float, beta: np.ndarray | None) -> np.ndarray:
@@ -477,68 +532,72 @@ def _propose_delays(seen: Evidence) -> Iterator[Hypothesis]:
     Gauss and Newton.
     """
     step = float(np.median([part.segment.step for part in seen.observation.stretches]))
-    channels = _collect_channels(seen)
-    search = partial(_find_best_shift, seen)
+    channels, search = _collect_channels(seen), partial(_find_best_shift, seen)
     shifts = map_parts(search, [channel.shift_columns for channel in channels])
-    for channel, (shift, data) in zip(channels, shifts, strict=True):
+    tried = []
+    for channel, (shift, W) in zip(channels, shifts, strict=True):
         way, back = ("late", "early") if channel.sign * shift > 0.0 else ("early", "late")
         line = (
             f"{channel.what} {1e3 * abs(shift):.0f} ms {way}, by a fit at other times (or "
             f"{channel.other} {back}); check the clocks of the channels, and shift the column"
         )
-        if abs(shift) > 0.5 * step:
-            late = DataWarning(line, code="delay")
-            yield Hypothesis(late, data, min_evidence=_require_evidence(shift))
+        tried.append((channel, shift, W, DataWarning(line, code="delay")))
         if channel.is_torque and shift < -0.5 * step:
-            tau, data = search(channel.filter_columns)
+            tau, W = search(channel.filter_columns)
             line = (
                 f"{channel.what} through a first-order low-pass filter with a time constant of "
                 f"{-1e3 * tau:.0f} ms; log the unfiltered torque"
             )
-            if tau < -0.5 * step:
-                late = DataWarning(line, code="torque_filter")
-                yield Hypothesis(late, data, min_evidence=_require_evidence(tau))
+            tried.append((channel, min(tau, 0.0), W, DataWarning(line, code="torque_filter")))
+    for channel, shift, W, fault in tried:
+        if abs(shift) > 0.5 * step and _is_delay(channel, shift, W):
+            yield Hypothesis(fault, seen.build_equations(W), min_evidence=0.0)
 
 
-def _require_evidence(shift: float) -> float:
-    """Returns what a delay must explain; more the rarer it is: physics looks like any delay."""
-    seconds = abs(shift)
-    rarity = max(seconds / THRESHOLDS.typical_delay, THRESHOLDS.min_delay / seconds, 1.0)
-    return THRESHOLDS.min_evidence + float(np.log(rarity))
+def _is_delay(channel: _Channel, shift: float, W: np.ndarray) -> bool:
+    """Returns True if a shift lowers the error, and by half of that in all blocks of time but one.
+
+    More of a long one: physics that the model lacks may look like any.
+    """
+    every = (channel.seen.residual, channel.seen.predict_blocks(W))
+    before, after = (x[:, channel.places].sum(axis=1) for x in every)  # squares
+    limit = THRESHOLDS.max_delay_ratio / max(1.0, abs(shift) / THRESHOLDS.typical_delay)
+    lower = after.sum() < limit**2 * before.sum() and np.sum(after >= limit * before) < 2
+    return bool(lower) and abs(shift) < THRESHOLDS.max_delay
 
 
-def _find_best_shift(seen: Evidence, columns: Columns) -> tuple[float, NormalEquations]:
-    """Returns the shift of a channel that leaves least, s, and what it leaves that of.
+def _find_best_shift(seen: Evidence, columns: Columns) -> tuple[float, np.ndarray]:
+    """Returns the shift of a channel that leaves least, s, and the columns with it.
 
-    A channel whose shift, to first order, does not help is given up; where torques are missed by
-    far, a long delay is searched too.
+    A fit with the torques of some shifts, less those without, as one column more says which of
+    them helps: friction that turns makes of the slope at none a poor guide. Then Gauss and Newton.
     """
     judge, longest, step = seen.judge, THRESHOLDS.max_delay, THRESHOLDS.delay_difference
 
     def compute_score(data: NormalEquations) -> float:
         return _compute_log_error(judge.compute_errors(data, possible=False))
 
-    least, shift, W, data = compute_score(seen.data), 0.0, seen.rows.W, seen.data
-    for start in _STARTS if seen.has_large_errors else ():
-        other = seen.build_equations(moved := columns(start, None))
-        if (score := compute_score(other)) < least:
-            least, shift, W, data = score, start, moved, other
+    W, shift, least, data = seen.rows.W, 0.0, compute_score(seen.data), seen.data
+    beta, _ = judge.solve(data)
+    starts = _STARTS if seen.has_large_errors else _STARTS[:4]
+    helped = [
+        compute_score(_append_column(data, seen, W, columns(x, beta) - W @ beta)) for x in starts
+    ]
+    if min(helped) > least - THRESHOLDS.min_shift_hint:
+        return shift, W
+    further = starts[int(np.argmin(helped))]
     for _ in range(THRESHOLDS.delay_steps):
-        beta, _ = judge.solve(data)
-        near = 0.5 * step  # both sides alike: columns of other times have samples of their own
-        slope = (columns(shift + near, beta) - columns(shift - near, beta)) / step
-        both = _append_column(data, seen, W, slope)
-        coefficients, _ = judge.solve(both)
-        promised = least - THRESHOLDS.min_shift_hint
-        if shift == 0.0 and _compute_log_error(both.compute_errors(coefficients)) > promised:
-            break
-        further = float(np.clip(shift + coefficients[-1], -longest, longest))
         other = seen.build_equations(closer := columns(further, None))
         reached = compute_score(other)
         if reached >= least:
             break
         shift, W, data, least = further, closer, other, reached
-    return shift, data
+        beta, _ = judge.solve(data)
+        near = 0.5 * step  # both sides alike: columns of other times have samples of their own
+        slope = (columns(shift + near, beta) - columns(shift - near, beta)) / step
+        coefficients, _ = judge.solve(_append_column(data, seen, W, slope))
+        further = float(np.clip(shift + coefficients[-1], -longest, longest))
+    return shift, W
 
 
 def _append_column(
@@ -546,93 +605,88 @@ def _append_column(
 ) -> NormalEquations:
     """Returns those of rows W (m, n, c), whose products are there, with a column (m, n) more."""
     joints, used = list(seen.joints), seen.rows.used
-    y, z = (np.where(used, x, 0.0)[:, joints] for x in (seen.rows.tau, column))
-    length = _compute_lengths(y)
+    y, z = seen.normalize(seen.rows.tau), seen.normalize(column)
     counted = (np.where(used[:, j, None], W[:, j], 0.0) for j in joints)
     beside = np.stack([side @ w for side, w in zip(z.T, counted, strict=True)])
-    beside /= length[:, None] ** 2
-    squares = np.sum(z**2, axis=0) / length**2
-    sides = np.concatenate([beside, squares[:, None]], axis=1)
+    beside /= _compute_lengths(np.where(used, seen.rows.tau, 0.0)[:, joints])[:, None]
+    sides = np.column_stack([beside, np.sum(z**2, axis=0)])
     gram = np.concatenate([data.gram, beside[:, :, None]], axis=2)
     gram = np.concatenate([gram, sides[:, None]], axis=1)
-    cross = np.column_stack([data.cross, np.sum(z * y, axis=0) / length**2])
-    return NormalEquations(gram, cross)
+    return NormalEquations(gram, np.column_stack([data.cross, np.sum(z * y, axis=0)]))
 
 
 def _collect_channels(seen: Evidence) -> list[_Channel]:
     """Returns what may be late."""
     one, every = np.eye(len(seen.observation.joints)), np.ones((len(seen.observation.joints),) * 2)
-    channels = [_Channel("all torques come", "the positions", -1.0, seen, every, True)]
+    whole = [*range(len(seen.joints))]
+    channels = [_Channel("all torques come", "the positions", -1.0, seen, every, whole, True)]
     if not seen.is_tree or len(seen.joints) == 1:
         return channels  # positions that are not of one time do not close the loops
     for place, j in enumerate(seen.joints):
         name, rest = f"joint {seen.get_joint_name(place)}:", "all the others"
         rows, motion = one[j][:, None] * every, one[j] * every
         channels += [
-            _Channel(f"{name} its torque comes", rest, -1.0, seen, rows, True),
-            _Channel(f"{name} its position comes", rest, 1.0, seen, motion),
-            _Channel(f"{name} its position and torque come", rest, 1.0, seen, motion - rows),
+            _Channel(f"{name} its torque comes", rest, -1.0, seen, rows, [place], True),
+            _Channel(f"{name} its position comes", rest, 1.0, seen, motion, [place]),
         ]
     return channels
 
 
 def _find_undetectable(seen: Evidence) -> list[DataWarning]:
-    """Returns faults that torques of the machine itself would not show, beside their residual."""
-    if seen.errors.max() > THRESHOLDS.wrong_channel_error:
-        return []
-    beta = seen.judge.project_fit(seen.data, *seen.judge.solve(seen.data))
-    hidden: dict[str, list[str]] = {}
-    for place in range(len(seen.joints)):
-        for what, data in _simulate_faults(seen, place, beta):
-            if _is_hidden(seen, data):
-                hidden.setdefault(what, []).append(seen.get_joint_name(place))
-    parts = [f"{what} of joint {', '.join(hidden[what])}" for what in sorted(hidden)]
-    parts += _bound_delays(seen, beta) if seen.is_tree and len(seen.joints) > 1 else []
+    """Returns the sizes below which faults would not show beside the residual, in words."""
+    joints: dict[str, list[str]] = {}
+    for (kind, place), size in sorted(_compute_undetectable_sizes(seen).items()):
+        fits = seen.errors[place] <= THRESHOLDS.wrong_channel_error
+        if fits and size >= THRESHOLDS.reported_size_share * kind.largest:
+            below = f"below {_round_size(size):g} {kind.unit}"
+            words = f"{kind.what} {below if size < kind.largest else 'of any size'}"
+            joints.setdefault(words, []).append(seen.get_joint_name(place))
+    parts = [f"{w} (joint{'s' * (len(j) > 1)} {', '.join(j)})" for w, j in joints.items()]
     line = f"Not detectable in these logs: {'; '.join(parts)}"
     return [DataWarning(line, is_undetectable=True, code="undetectable")] if parts else []
 
 
-def _simulate_faults(
-    seen: Evidence, place: int, beta: np.ndarray
-) -> Iterator[tuple[str, NormalEquations]]:
-    """Yields logs of the machine with a fault of one joint."""
-    W, j = seen.rows.W, seen.joints[place]
-    data = seen.build_equations(W, W @ beta)
-    yield "a wrong sign of the torque", data.scale_torques(place, -1.0)
-    yield "a scale error of 2 on the torque", data.scale_torques(place, 0.5)
-    if seen.is_tree and seen.observation.joints[j].unit == "rad":
-        zero = propose_zero(seen.observation, j, 90)
-        moved = seen.rows.transform_columns(seen.compiled, zero)
-        yield "a zero off by 90 degrees", seen.build_equations(moved, W @ beta)
+def _round_size(size: float) -> float:
+    """Returns the nearest of 1, 2, 5, 10, 20 ... by ratio."""
+    decade = 10.0 ** np.floor(np.log10(size))
+    return float(decade * min((1.0, 2.0, 5.0, 10.0), key=lambda x: abs(np.log(x * decade / size))))
 
 
-def _bound_delays(seen: Evidence, beta: np.ndarray) -> list[str]:
-    """Returns how late a joint may be before its error rises by a third, beside a fit."""
-    short, never = list[str](), list[str]()
-    one, longest = np.eye(len(seen.observation.joints)), THRESHOLDS.max_delay
-    rise = (THRESHOLDS.detectable_error_ratio**2 - 1.0) ** 0.5
+def _compute_undetectable_sizes(seen: Evidence) -> dict[tuple[_Kind, int], float]:
+    """Returns the size of each fault that raises the error of a joint by a third, or the largest.
+
+    With s what the torques change by a unit of it, near that size, and r_j = ||s_j - W_j gamma|| /
+    ||tau_j|| what the fit leaves of that, the error e_j of any joint becomes hypot(e_j, size r_j).
+    """
+    beta, weights = seen.judge.solve(seen.data)
+    least = (THRESHOLDS.detectable_error_ratio**2 - 1.0) ** 0.5
+    least = least * np.maximum(seen.errors, THRESHOLDS.min_error)
+    sizes = {}
     for place, j in enumerate(seen.joints):
-        error = max(float(seen.errors[place]), THRESHOLDS.min_error)
-        least = THRESHOLDS.typical_delay
-        for _ in range(2):  # what a delay makes grows with it: hypot(made, error) = ratio error
-            later = seen.rows.shift_columns(seen.compiled, least * one[j])
-            data = seen.build_equations(later, seen.rows.W @ beta)
-            made = seen.judge.compute_errors(data, possible=False)[place]
-            least = min(least * error * rise / max(float(made), 1e-3 * error), 1.1 * longest)
-        if least > longest:
-            never.append(seen.get_joint_name(place))
-        elif least > THRESHOLDS.min_delay:
-            short.append(f"{1e3 * least:.2g} ms of joint {seen.get_joint_name(place)}")
-    parts = [f"a delay below {', '.join(short)}"] if short else []
-    any_delay = f"any delay up to {1e3 * longest:.0f} ms of joint {', '.join(never)}"
-    return [*parts, any_delay] if never else parts
+        turns = seen.is_tree and seen.observation.joints[j].unit == "rad"
+        for kind in (_DELAY, _SCALE, _ZERO) if turns else (_DELAY, _SCALE):
+            size = 0.1 * kind.largest
+            for _ in range(2):
+                change = _change_torque(seen, beta, kind, j, size) / size
+                both = _append_column(seen.data, seen, seen.rows.W, change)
+                gram = np.tensordot(weights, both.gram, 1)
+                refit = np.append(-_solve_normal_equations(gram[:-1, :-1], gram[:-1, -1]), 1.0)
+                left = np.sqrt(np.maximum(refit @ both.gram @ refit, 1e-18))
+                size = min(float(np.min(least / left)), kind.largest)
+            sizes[kind, place] = size
+    return sizes
 
 
-def _is_hidden(seen: Evidence, data: NormalEquations) -> bool:
-    """Returns True if a fault, made of the torques of the machine, adds too little evidence."""
-    least = THRESHOLDS.detectable_evidence_ratio * THRESHOLDS.min_evidence
-    for possible in (False, True):  # what shows without consistent parameters shows with them
-        made = np.hypot(seen.judge.compute_errors(data, possible), seen.errors)
-        if _compute_evidence(seen.errors, made) >= least:
-            return False
-    return True
+def _change_torque(
+    seen: Evidence, beta: np.ndarray, kind: _Kind, j: int, size: float
+) -> np.ndarray:
+    """Returns (m, n) what a fault of joint j, of that size, changes of the torques of a machine."""
+    rows, one = seen.rows, np.eye(len(seen.observation.joints))[j]
+    torque = rows.W @ beta
+    if kind is _ZERO:
+        zero = propose_zero(seen.observation, j, size)
+        return rows.transform_columns(seen.compiled, zero, beta) - torque
+    if kind is _SCALE:
+        return 0.01 * size * torque * one
+    late = np.full(len(one), -1e-3 * size)
+    return (rows.shift_columns(seen.compiled, late, beta) - torque) * one

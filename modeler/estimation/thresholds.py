@@ -106,8 +106,6 @@ class Thresholds:
     """Fit error of a joint in the reduced model over that in the full one; docs/studies."""
     keep_all_percent: float = 1e300
     """Percent of sigma below which no parameter leaves."""
-    max_repaired_error: float = 0.5
-    """Share of a joint's error that a repaired fault leaves: physics explains less."""
     equivalent_fault_ratio: float = 1.3
     """Error of another fault over the least, up to which it explains the logs as well."""
     min_error: float = 0.001
@@ -117,7 +115,12 @@ class Thresholds:
     wrong_channel_error: float = 0.5
     """Relative error of a joint that no physics explains."""
     min_evidence: float = math.log(3.0)
-    """Fall of the sum of log errors: missing physics looks like a delay by up to 1."""
+    """Fall of the sum of log errors by a fault whose value is fitted; missing physics reaches 1."""
+    min_evidence_without_value: float = math.log(1.5)
+    """The same by another clock or zero, with no value to fit; measured logs reach 0.21."""
+    max_delay_ratio: float = 0.75
+    """Error of a joint, predicted, with a delay undone over that without, up to 20 ms; beyond, as
+    many times less; half of the fall in all blocks but one; no measured joint has it."""
     min_torque_factor: float = 1.4
     """Factor of a torque from which on its scale is wrong; gains are not known better."""
     unit_factor: float = 5.0
@@ -138,20 +141,18 @@ class Thresholds:
     """Subsets of signs that are projected onto physical parameters."""
     max_delay: float = 0.15
     """s, the largest delay that is searched: beyond it, channels are wrong in another way."""
-    min_delay: float = 0.01
-    """s; a shorter delay is not searched where nothing is late."""
     typical_delay: float = 0.02
-    """s, from whose effect that of other delays is scaled."""
-    delay_difference: float = 5e-3
+    """s; a longer delay is rarer, and must explain more."""
+    delay_difference: float = 0.01
     """s between the motions of which a slope is taken."""
     delay_steps: int = 4
     """Gauss-Newton steps by which the delay of a channel is refined."""
     min_shift_hint: float = 0.2
-    """Fall of the sum of log errors that the linearised shift promises at least."""
+    """Fall of the sum of log errors that a shift of the fitted torques promises at least."""
     detectable_error_ratio: float = 4.0 / 3.0
-    """Times the error of a joint that a delay makes of it before it is detectable."""
-    detectable_evidence_ratio: float = 1.5
-    """Times `min_evidence` below which a fault may remain undetected."""
+    """Times the error of a joint that a fault makes of it before it is detectable."""
+    reported_size_share: float = 0.1
+    """Share of the largest size of a fault below which nobody asks for it; no study."""
     min_tilt: float = 0.3
     """rad between two directions of gravity: a tilted base has less."""
     min_gravity_change: float = 0.05

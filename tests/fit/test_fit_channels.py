@@ -2,8 +2,8 @@
 time: named with their delay, physics is not called late.
 """
 
-import dataclasses
 import json
+import re
 from collections import Counter
 from dataclasses import replace
 from functools import cache
@@ -79,7 +79,7 @@ MISTAKES = {
 }
 
 
-UNSEEN = {"zero": "90 degrees", "twice": "scale error of 2", "torque sign": "wrong sign"}
+UNSEEN = {"zero": "zero errors", "twice": "scale errors", "torque sign": "scale errors"}
 
 
 @pytest.mark.rotating("long tests of fit")
@@ -115,9 +115,9 @@ def test_mistakes_drawn_at_random_are_named_although_the_fit_adapts(mistake):
             if named and mistake in ("unit", "position sign", "torque sign", "zero", "twice"):
                 named = f"joint {log.joints[j]}:" in first.line
             named |= any(
-                UNSEEN.get(mistake, "?") in part
-                and log.joints[j] in part.partition(" of joint ")[2].split(", ")
+                UNSEEN.get(mistake, "?") in part and log.joints[j] in re.findall(r"\w+", sizes)
                 for part in (first.line.split("; ") if first.is_undetectable else ())
+                for sizes in re.findall(r"of any size \(joints? (.*?)\)", part)
             )
             seen[named] += 1
     assert seen[False] <= 1, seen
@@ -212,26 +212,46 @@ def test_a_log_beside_a_model_of_another_is_judged_by_its_values():
     assert find_log_faults(machine, observe(machine, [other]), model) == ()
 
 
-def test_the_delay_that_is_not_detectable_raises_the_error_by_a_third(monkeypatch):
-    """Reported per joint, far below the longest that is looked for where a robot moves well."""
+def test_faults_of_the_stated_sizes_raise_the_error_by_a_third():
+    """Delays, scale errors and zeros, per joint, below the largest where a robot moves well."""
     machine, (log, _) = runs("demo-arm")
-    limits = dataclasses.replace(log_faults.THRESHOLDS, min_delay=0.0)
-    monkeypatch.setattr(log_faults, "THRESHOLDS", limits)
-    noisy = np.random.default_rng(3).normal(size=log.tau.shape) * log.tau.std(axis=0)
+    noisy = 0.2 * np.random.default_rng(3).normal(size=log.tau.shape) * log.tau.std(axis=0)
     observation = observe(machine, [replace(log, tau=log.tau + noisy)])
-    (matches, *_) = find_log_faults(machine, observation)
-    assert matches.is_undetectable and matches.line.startswith("Not detectable in these logs: ")
-    stated = matches.line.partition("a delay below ")[2].split(";")[0].split(", ")
-    delays = {text.split()[-1]: 1e-3 * float(text.split()[0]) for text in stated}
-    assert delays and max(delays.values()) < limits.max_delay
+    (said, *_) = find_log_faults(machine, observation)
+    assert said.is_undetectable and said.line.startswith("Not detectable in these logs: ")
     seen = log_faults._gather_evidence(machine, observation)
-    beta = seen.judge.project_fit(seen.data, *seen.judge.solve(seen.data))
-    places = {seen.get_joint_name(k): k for k in range(len(seen.joints))}
-    for name, delay in delays.items():
-        shift = delay * np.eye(len(log.joints))[seen.joints[places[name]]]
-        late = seen.build_equations(seen.rows.shift_columns(machine, shift), seen.rows.W @ beta)
-        ratio = seen.judge.compute_errors(late, False)[places[name]] / seen.errors[places[name]]
-        assert np.hypot(ratio, 1.0) == pytest.approx(4.0 / 3.0, rel=0.1)
+    beta, _ = seen.judge.solve(seen.data)
+    torque, every = seen.rows.W @ beta, np.eye(3)
+    checked = set()
+    for (kind, place), size in log_faults._compute_undetectable_sizes(seen).items():
+        name = seen.get_joint_name(place)
+        stated = {
+            j: text
+            for what, text, names in SIZES.findall(said.line)
+            for j in re.findall(r"\w+", names)
+            if what == kind.what
+        }
+        if size >= kind.largest:
+            assert stated[name] == "of any size"
+            continue
+        assert name not in stated or float(stated[name].split()[1]) == pytest.approx(size, rel=0.6)
+        if kind.what == "torque delays":
+            faulty = seen.rows.shift_columns(machine, np.full(3, -1e-3 * size), beta)
+            faulty = np.where(every[place] > 0, faulty, torque)
+        elif kind.what == "zero errors":
+            zero = log_faults.propose_zero(observation, place, size)
+            faulty = seen.rows.transform_columns(machine, zero, beta)
+        else:
+            faulty = torque * (1.0 + 0.01 * size * every[place])
+        made = seen.judge.compute_errors(seen.build_equations(seen.rows.W, faulty), False)
+        ratio = np.hypot(made / seen.errors, 1.0).max()
+        tolerance = 0.25 if kind.what.startswith("scale") else 0.12  # it is taken as linear
+        assert ratio == pytest.approx(4.0 / 3.0, rel=tolerance), (kind, name)
+        checked.add(kind.what)
+    assert {"torque delays", "zero errors"} <= checked
+
+
+SIZES = re.compile(r"([a-z][a-z ]+) (of any size|below [\d.]+ \S+) \(joints? (.*?)\)")
 
 
 LATE_RATE = 200.0
