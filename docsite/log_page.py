@@ -71,6 +71,7 @@ class LogRun:
         fit: of it.
         held_out: the fitted model on the other part.
         restamped: that of the same log with repeated rows left out and the others at even times.
+        held_out_repeats: s, of rows that repeat the one before in the other part.
         worse: printed lines on the logs of `WORSE`.
     """
 
@@ -81,6 +82,7 @@ class LogRun:
     fit: FitResult
     held_out: Comparison
     restamped: Comparison
+    held_out_repeats: np.ndarray
     worse: dict[str, str]
 
     @cached_property
@@ -96,8 +98,7 @@ class LogRun:
     @cached_property
     def repeated(self) -> np.ndarray:
         """Returns the rows whose positions and torques are those of the row before."""
-        steps = np.diff(np.hstack([self.log.q, self.log.tau]), axis=0)
-        return np.flatnonzero((steps == 0.0).all(axis=1)) + 1
+        return find_repeats(self.log)
 
     @cached_property
     def place(self) -> tuple[int, int]:
@@ -150,7 +151,7 @@ def run_log(data: Path) -> LogRun:
         widest = prepare_logs(model.spec, logs, asked, repair)
         prepared = limit_cutoffs(model, widest, asked)
         plain = choose_filters(model, logs, widest, asked, repair)
-        (log,) = logs
+        (log,), (other,) = logs, read_logs(model, held_out)
         worse = {key: quote_lines(data, *what) for key, what in WORSE.items()}
         even = Path(folder) / "even.parquet"
         restamp_rows(data / one.folder / "excitation.parquet").to_parquet(even)
@@ -159,7 +160,22 @@ def run_log(data: Path) -> LogRun:
         ]
         restamped = api.identify(robot, parts[0], holdout=parts[1])
         compared = identified.compare(), restamped.compare()
-        return LogRun(model, log, prepared, plain, identified.fit, *compared, worse)
+        return LogRun(
+            model,
+            log,
+            prepared,
+            plain,
+            identified.fit,
+            *compared,
+            other.time[find_repeats(other)],
+            worse,
+        )
+
+
+def find_repeats(log: Log) -> np.ndarray:
+    """Returns the rows whose positions and torques are those of the row before."""
+    steps = np.diff(np.hstack([log.q, log.tau]), axis=0)
+    return np.flatnonzero((steps == 0.0).all(axis=1)) + 1
 
 
 def restamp_rows(path: Path) -> pd.DataFrame:
@@ -329,6 +345,7 @@ def collect_numbers(run: LogRun) -> dict[str, Any]:
         **collect_raw(run),
         **collect_filters(run),
         **collect_rows(run),
+        **collect_residual(run),
         "verdict": run.fit.verdict.line if run.fit.verdict else "",
         "joints": list_joints(run),
         "worse": run.worse,
@@ -421,6 +438,18 @@ def collect_rows(run: LogRun) -> dict[str, Any]:
         "prior_change": format_number(100.0 * float(np.nanmean(change)), 1),
         "prior_parameter": rows.names[int(np.argmax(shares))],
         "prior_share": format_number(100.0 * float(shares.max()), 2),
+    }
+
+
+def collect_residual(run: LogRun) -> dict[str, Any]:
+    """Returns numbers of the residual that is drawn, and of joint 1 with even stamps."""
+    largest = run.held_out.joints[JOINT].largest
+    away = np.abs(run.held_out_repeats - largest.time).min(initial=np.inf)
+    return {
+        "drawn": run.log.joints[JOINT],
+        "residual_peak": format_number(abs(largest.value), 2),
+        "peak_distance": f"{away:.2f}",
+        "restamped_first": format_number(100.0 * run.restamped.joints[0].relative_error, 2),
     }
 
 
