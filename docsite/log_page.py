@@ -272,7 +272,7 @@ def draw_noise(run: LogRun) -> fig.Picture:
             fig.Curve(
                 "differences as logged", log.time[1:-1][inner], run.raw_acceleration[inner], RAW
             ),
-            fig.Curve("repeats left out, filtered", segment.time[near], segment.qdd[near, j], USED),
+            fig.Curve("as fitted", segment.time[near], segment.qdd[near, j], USED),
         ),
         zero=True,
     )
@@ -299,8 +299,8 @@ def draw_rows(run: LogRun) -> fig.Picture:
     near = _select(run.log.time, span)
     series.append(fig.Curve("as logged", run.log.time[near], run.log.tau[near, j], RAW))
     for label, rows, style in (
-        ("rows that are fitted", run.rows, fig.Style(fig.BLUE, 5.0)),
         ("rows behind the filters above", run.masked_rows, fig.Style(fig.ORANGE, 9.0)),
+        ("rows that are fitted", run.rows, fig.Style(fig.BLUE, 5.0)),
     ):
         at = _select(rows.time, span)
         at = at[rows.used[at, j]]
@@ -442,14 +442,14 @@ def collect_rows(run: LogRun) -> dict[str, Any]:
 
 
 def collect_residual(run: LogRun) -> dict[str, Any]:
-    """Returns numbers of the residual that is drawn, and of joint 1 with even stamps."""
+    """Returns numbers of the residual that is drawn."""
     largest = run.held_out.joints[JOINT].largest
     away = np.abs(run.held_out_repeats - largest.time).min(initial=np.inf)
     return {
         "drawn": run.log.joints[JOINT],
         "residual_peak": format_number(abs(largest.value), 2),
         "peak_distance": f"{away:.2f}",
-        "restamped_first": format_number(100.0 * run.restamped.joints[0].relative_error, 2),
+        "is_peak_repeated": bool(away < 0.1),
     }
 
 
