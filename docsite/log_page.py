@@ -252,7 +252,7 @@ def draw_noise(run: LogRun) -> fig.Picture:
         "frequency [Hz]",
         "rad²/Hz",
         (
-            fig.Curve("spectrum", hz, np.array(noise.spectrum), USED),
+            fig.Curve("spectrum", hz, np.array(noise.spectrum), fig.Style(fig.BLACK, 1.4)),
             fig.Curve("noise floor", hz, np.full(len(hz), noise.density), MODEL),
         ),
         scale="log",
