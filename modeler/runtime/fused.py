@@ -16,18 +16,9 @@ from modeler.core.errors import ManifestError, ShapeError
 from modeler.core.json import ShortRepr
 from modeler.core.manifest import FunctionSpec, ModuleSpec
 from modeler.runtime import bind
-from modeler.runtime.bind import (
-    EntryFunctions,
-    FusedLibrary,
-    Library,
-    SampleArrays,
-    TileLibrary,
-    check_mask,
-    check_sample_counts,
-    check_samples,
-    reject_signals,
-)
+from modeler.runtime.bind import EntryFunctions, FusedLibrary, Library, SampleArrays, TileLibrary
 from modeler.runtime.build import map_parts, split_samples
+from modeler.runtime.checks import check_mask, check_sample_counts, check_samples, reject_signals
 
 BLOCK = 16384
 """Samples that are reduced by themselves."""

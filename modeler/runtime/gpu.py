@@ -11,7 +11,7 @@ import numpy as np
 
 from modeler.core.errors import BuildError, ManifestError, ShapeError, suggest_install
 from modeler.core.manifest import CUDA_THREADS, EmittedModule, ModuleSpec
-from modeler.runtime.bind import check_mask, check_sample_counts, check_samples, reject_signals
+from modeler.runtime.checks import check_mask, check_sample_counts, check_samples, reject_signals
 
 _BLOCKS = 1024
 """Blocks that sum products, at most: fixed, so that sums do not depend on the processor."""

@@ -10,8 +10,9 @@ from modeler.core.errors import LoopError, ManifestError, ShapeError, SolutionEr
 from modeler.core.files import read_file
 from modeler.core.manifest import MANIFEST, EmittedModule, FunctionSpec, ModuleSpec, parse_manifest
 from modeler.core.result import Result
-from modeler.runtime.bind import Library, check_names, check_vector
+from modeler.runtime.bind import Library, check_names
 from modeler.runtime.build import build_library
+from modeler.runtime.checks import check_vector
 from modeler.runtime.fused import BatchEvaluator, check_output
 
 _STATUS = {

