@@ -424,10 +424,10 @@ def _judge_joints(
         elif fit_error is None:
             is_slow = rests or observation.torque[:, j].any()
             state, cause = "undetermined", "little_motion" if is_slow else "no_torque"
+        elif rests:
+            state, cause = "doubtful" if state == "good" else state, "little_motion"
         elif state == "undetermined":
             cause = "lack_of_fit" if fit_error > THRESHOLDS.max_fit_error else "few_rows"
-        elif rests:
-            state, cause = "doubtful", "little_motion"
         elif state == "good" and sampled > THRESHOLDS.max_sample_error:
             state, cause = "doubtful", "low_speed"
         parts = [f"fit error {format_percent(fit_error)}"]
