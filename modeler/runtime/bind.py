@@ -413,13 +413,7 @@ class FusedLibrary:
         return int(added[0]), int(left)
 
     def average_rows(self, means: Means, level: int, out: np.ndarray) -> None:
-        """Fills means of samples.
-
-        Args:
-            means: which.
-            level: of instructions.
-            out: (rows, joints, columns).
-        """
+        """Fills means of samples, (rows, joints, columns)."""
         fields = self._make_means(means, out[0, 0].size if out.size else 0)
         self._library.modeler_row_means(fields, level, self._make_pointer(out))
 
@@ -433,16 +427,9 @@ class FusedLibrary:
         state: np.ndarray,
         rows: np.ndarray,
     ) -> None:
-        """Adds rows that are means of samples to a state.
+        """Adds rows that are means, at least one, to a state; as `add_samples`.
 
-        Args:
-            rows_of_entries: (entries,) C int, row after row.
-            functions: that evaluate the entries.
-            samples: whose torques are those of the rows.
-            means: which; at least one.
-            level: of instructions.
-            state: triangles of all joints one after another, changed.
-            rows: (joints,) of numpy.uintp, increased.
+        The torques of the samples are those of the rows.
         """
         source = self._make_source(rows_of_entries, functions, samples.q.shape[1])
         sample, start = means["sample"], means["start"]
