@@ -49,7 +49,8 @@ def ask(log: FaultyLog) -> Answer:
     mended = seen.report.collect_warnings()
     certain = [w.line for w in found if w.is_certain and "; or: " not in w.line]
     notes = [*seen.report.collect_notes(), *verdict.undetectable_faults]
-    lines = dict.fromkeys([*(w.line for w in found), verdict.line, *verdict.warnings, *notes])
+    warnings = [*(w.line for w in found), *(w.text for w in verdict.warnings)]
+    lines = dict.fromkeys([*warnings, verdict.line, *notes])
 
     def is_true(line: str) -> bool:
         return any(re.search(pattern, line) for pattern in log.patterns)
