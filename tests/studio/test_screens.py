@@ -42,8 +42,8 @@ def story(folder: Path, told: Callable[[Any], Awaitable[None]], place: str = "/"
 def test_a_fit_is_judged_joint_by_joint(arm: Path) -> None:
     async def told(page: Any) -> None:
         text = page.texts()
-        assert "doubtful: joint 2" in text and "25 values" in text
-        assert text.count("\ngood\n") == 2 and text.count("not essential") >= 1
+        assert "25 values" in text and text.count("not essential") >= 1
+        assert text.count("\ngood\n") == 3, text  # values are doubtful, and no joint's prediction
         hints = [one.props["title"] for one in page.every() if "title" in one.props]
         assert "ZZ2R = ZZ2 + Ia2 + D3**2*M3" in hints
         page.change("method", "robust")
