@@ -382,7 +382,8 @@ def fit_logs(
     with reporter.report_step("building the observation matrix"):
         bare, loaded = (read_logs(robot.compiled, some, mapping) for some in (logs, load.logs))
         _check_logs(logs, bare, load.logs, loaded, held_out)
-        observation = observe(robot.compiled, [*bare, *loaded], processing)
+        # blocks of time are compared for one machine, and a load makes it another
+        observation = observe(robot.compiled, [*bare, *loaded], processing, not loaded)
     payloads = load.build_payloads(loaded) if loaded else ()
     model, outcome = fit_observation(options, robot, observation, payloads, reporter.report_step)
     return model, observation, outcome, loaded
@@ -517,7 +518,8 @@ def _fit_gains(
     ) -> tuple[Observation, list[estimation.Payload]]:
         bare, loaded = (workflow.read_currents(model, some, mapping) for some in (logs, load.logs))
         _check_logs(logs, bare, load.logs, loaded, held_out)
-        return observe(model, [*bare, *loaded], processing), load.build_payloads(loaded)
+        rows = observe(model, [*bare, *loaded], processing, is_compared=False)
+        return rows, load.build_payloads(loaded)
 
     with report_step("finding the drive gains"):
         observation, payloads = observe_logs(compiled, processing)

@@ -11,7 +11,7 @@ from modeler import regression
 from modeler.api.thresholds import THRESHOLDS
 from modeler.core.errors import DataError, ModelerError, split_time_range
 from modeler.core.manifest import EmittedModule
-from modeler.estimation import find_log_faults, identify, judge_fit
+from modeler.estimation import find_contradictions, find_log_faults, identify, judge_fit
 from modeler.logs import (
     EITHER,
     InMemory,
@@ -235,6 +235,7 @@ def _fit_mapping(
     except ModelerError:
         return MappingFit(float("inf"))
     usable = result.verdict is not None and result.verdict.is_valid_everywhere
+    usable = usable and not find_contradictions(compiled, rows, result)
     return MappingFit(result.relative_error, (), usable, rows.report)
 
 

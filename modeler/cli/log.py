@@ -25,7 +25,13 @@ from modeler.cli.thresholds import THRESHOLDS
 from modeler.core.errors import BuildError, ModelerError, flatten_message
 from modeler.core.files import write_atomically
 from modeler.core.table import align_columns, format_percent
-from modeler.estimation import FitResult, find_log_faults, identify, stream_logs
+from modeler.estimation import (
+    FitResult,
+    find_contradictions,
+    find_log_faults,
+    identify,
+    stream_logs,
+)
 from modeler.logs import LogInspection, LogMap, find_marks, keep_longest, parse_map_options
 from modeler.regression import (
     Observation,
@@ -158,6 +164,7 @@ def _fit_mapping(
         *(f.line for f in findings if not f.is_undetectable),
     ]
     usable = verdict is not None and verdict.is_valid_everywhere
+    usable = usable and not find_contradictions(compiled, observation, result)
     if verdict is not None and not usable:
         lines += [*verdict.lines, f"a fit of {observation.robot}: {verdict.line}"]
     elif result.relative_error > THRESHOLDS.max_unremarked_error:

@@ -70,7 +70,9 @@ def reproduce_briot(paper: Paper, report: Callable[[float], None]) -> list[Metho
     rng = np.random.default_rng(2012)
     bare, loaded, other = (_simulate_currents(run, gains, rng) for run in runs)
     known = Payload((loaded.name,), mass=mass)
-    gain_fit = identify_gains(compiled, observe(compiled, [bare, loaded]), [known])
+    gain_fit = identify_gains(
+        compiled, observe(compiled, [bare, loaded], is_compared=False), [known]
+    )
     both = (dict.fromkeys(JOINTS, maker), gain_fit.gains)
     cases = [_weigh_load(compiled, bare, other, each) for each in both]
     figure = _build_figure_3(compiled, gain_fit, loaded, mass)
@@ -117,7 +119,9 @@ def _weigh_load(
     """Mass of the load of `loaded`, kg, and its sigma, with these gains."""
     scale = np.array([gains[joint] for joint in JOINTS])
     logs = [replace(log, tau=log.tau * scale) for log in (bare, loaded)]
-    fit = identify_with_payloads(compiled, observe(compiled, logs), [Payload((loaded.name,))])
+    fit = identify_with_payloads(
+        compiled, observe(compiled, logs, is_compared=False), [Payload((loaded.name,))]
+    )
     (mass,) = fit.loads
     return mass.value, mass.sigma or 0.0
 
