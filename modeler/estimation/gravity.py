@@ -18,7 +18,7 @@ from modeler.estimation.physical_consistency import PhysicalParameters, define_p
 from modeler.estimation.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel, average_rows
 
-_CLOCKS = (2.0, 0.5, 5.0, 10.0, 20.0, 50.0, 100.0, 0.2, 0.1, 0.05, 0.02, 0.01)  # are off by
+_CLOCKS = (2.0, 0.5, 0.2, 5.0, 10.0, 20.0, 50.0, 100.0, 0.1, 0.05, 0.02, 0.01)  # are off by
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,9 +157,9 @@ class MotionTransform:
 def propose_clocks(
     observation: regression.Observation, nearest_only: bool = False
 ) -> Iterator[MotionTransform]:
-    """Yields all motion faster or slower than it is logged, or twice and half as fast only."""
+    """Yields all motion faster or slower than it is logged, or by small factors only."""
     same = np.eye(len(observation.joints))
-    for speed in _CLOCKS[:2] if nearest_only else _CLOCKS:
+    for speed in _CLOCKS[:3] if nearest_only else _CLOCKS:
         line = (
             f"the clock seems to be wrong: with all motion {speed:g} times as fast, torques are "
             "those of a machine; check the time column, its unit and rate"

@@ -147,6 +147,7 @@ class Hypothesis:
         joints: that it concerns; empty: all.
         min_evidence: by which it must lower the sum of logarithms, of the fit too.
         judge: of its columns, where they are not those of the robot.
+        speed: of the motion, over that which was logged.
     """
 
     fault: DataWarning
@@ -154,6 +155,7 @@ class Hypothesis:
     joints: tuple[int, ...] = ()
     min_evidence: float = THRESHOLDS.min_evidence
     judge: ResidualModel | None = None
+    speed: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -295,6 +297,12 @@ def _select_hypothesis(seen: Evidence) -> Hypothesis | None:
     if any(one.fault.line.startswith(ABSENT) for _, one in candidates):
         candidates = [c for c in candidates if "the clock seems" not in c[1].fault.line]
     candidates.sort(key=lambda pair: -pair[0])
+    clock = next((one for _, one in candidates if one.fault.code == "clock"), None)
+    if clock is not None and clock.speed == min(one.speed for one in tried):
+        # the slower the better: no clock, but accelerations that nothing answers to
+        candidates = [c for c in candidates if c[1].fault.code != "clock"]
+        if not candidates:
+            return None
     least = candidates[0][0] - np.log(THRESHOLDS.equivalent_fault_ratio)
     likely = [one for score, one in candidates if score >= least]
     line = "; or: ".join(dict.fromkeys(one.fault.line for one in likely[:3]))
@@ -319,6 +327,10 @@ def _compute_reduction(seen: Evidence, one: Hypothesis) -> float:
         errors = judge.compute_errors(one.data)
         reached = _compute_log_error(errors)
     explains = before - reached >= least and errors.max() <= THRESHOLDS.wrong_channel_error
+    if one.fault.code == "clock" and len(errors) > 1:  # one joint alone shows its own physics
+        sizes = [np.maximum(each, THRESHOLDS.min_error) for each in (seen.errors, errors)]
+        falls = np.log(sizes[0] / sizes[1])
+        explains &= float(np.sum(falls) - np.max(falls)) >= THRESHOLDS.min_shared_evidence
     return before - reached if explains else -np.inf
 
 
@@ -451,7 +463,7 @@ def _propose_motion_faults(seen: Evidence) -> Iterator[Hypothesis]:
         if data is not None:
             code = "positions" if transform.speed == 1.0 else "clock"
             fault = DataWarning(transform.line, True, code=code)
-            yield Hypothesis(fault, data, min_evidence=evidence)
+            yield Hypothesis(fault, data, min_evidence=evidence, speed=transform.speed)
     if seen.judge.beta is None:
         yield from _propose_delays(seen)
 

@@ -118,6 +118,8 @@ class Thresholds:
     """Fall of the sum of log errors by a fault whose value is fitted; missing physics reaches 1."""
     min_evidence_without_value: float = math.log(1.5)
     """The same by another clock or zero, with no value to fit; measured logs reach 0.21."""
+    min_shared_evidence: float = math.log(1.2)
+    """The same by the joints but the one that gains most, of another clock; tests/api."""
     max_delay_ratio: float = 0.75
     """Error of a joint, predicted, with a delay undone over that without, up to 20 ms; beyond, as
     many times less; half of the fall in all blocks but one; no measured joint has it."""
@@ -210,6 +212,8 @@ class Thresholds:
     """Standard deviation of a fixed parameter over that which the data alone give."""
     chance_probability: float = 1e-3
     """Probability of a false alarm, of a prior or of physical consistency."""
+    max_prior_share: float = 0.5
+    """Standard deviation over that of the prior on the torque, from which on logs say nothing."""
     max_prior_error: float = 0.1
     """Share of a joint's fit error that a prior may add."""
     known_below_percent: float = 10.0

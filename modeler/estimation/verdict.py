@@ -347,6 +347,10 @@ def judge_fit(
             names = (j.name for j in result.joints if line.startswith(f"joint {j.name}: "))
             warnings.append(DataWarning(line, False, True, joints=tuple(names), code="prior"))
         spread = _compute_spread(data, result)
+        if equations.torque_prior is not None:  # which bounds what the logs leave open
+            weight = np.diag(equations.torque_prior)[: len(spread)]
+            known = weight * np.sqrt(np.diag(result.covariance)) / THRESHOLDS.max_prior_share
+            spread = np.maximum(spread, known)
         warnings += find_undetermined_parameters(model.spec, result, spread)
         impossible = _find_impossible(model.spec, result, data)
         possible = not impossible

@@ -300,7 +300,7 @@ def test_fit_percentage_is_that_of_matlab() -> None:
 def test_under_a_controller(arm_run) -> None:
     """The simulated controller is not one of ours; the nearest still explains its errors."""
     under = arm_run.controlled
-    assert under is not None and not under.given
+    assert under is not None and not under.has_given_gains
     assert all(fit > 99.8 for fit in under.fit.values())
     assert all(20.0 < share <= 100.0 for share in under.tracking.values())
     assert all(fit > 95.0 for fit in under.torque.values())
