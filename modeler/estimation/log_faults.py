@@ -290,19 +290,15 @@ def _select_hypothesis(seen: Evidence) -> Hypothesis | None:
     tried = [*_propose_torque_faults(seen), *_propose_gravity_faults(seen)]
     tried += _propose_motion_faults(seen)
     scores = map_parts(partial(_compute_reduction, seen), tried)
-    pairs = zip(scores, tried, strict=True)
+    pairs = sorted(zip(scores, tried, strict=True), key=lambda pair: -pair[0])
     candidates = [(score, one) for score, one in pairs if score >= one.min_evidence]
+    clock = next((one.speed for _, one in candidates if one.fault.code == "clock"), 1.0)
+    is_absent = any(one.fault.line.startswith(ABSENT) for _, one in candidates)
+    # the slower the better: no clock, but accelerations that nothing answers to
+    if is_absent or (clock < 1.0 and clock == min(one.speed for one in tried)):
+        candidates = [pair for pair in candidates if pair[1].fault.code != "clock"]
     if not candidates:
         return None
-    if any(one.fault.line.startswith(ABSENT) for _, one in candidates):
-        candidates = [c for c in candidates if "the clock seems" not in c[1].fault.line]
-    candidates.sort(key=lambda pair: -pair[0])
-    clock = next((one for _, one in candidates if one.fault.code == "clock"), None)
-    if clock is not None and clock.speed == min(one.speed for one in tried):
-        # the slower the better: no clock, but accelerations that nothing answers to
-        candidates = [c for c in candidates if c[1].fault.code != "clock"]
-        if not candidates:
-            return None
     least = candidates[0][0] - np.log(THRESHOLDS.equivalent_fault_ratio)
     likely = [one for score, one in candidates if score >= least]
     line = "; or: ".join(dict.fromkeys(one.fault.line for one in likely[:3]))
@@ -314,9 +310,9 @@ def _select_hypothesis(seen: Evidence) -> Hypothesis | None:
 
 
 def _compute_reduction(seen: Evidence, one: Hypothesis) -> float:
-    """Returns by how much a hypothesis lowers the sum of logarithms; -inf if it is none.
+    """Returns the fall of the sum of logarithms by a hypothesis; -inf if it is none.
 
-    Where consistent parameters alone are better by it, and not the fit itself, it must be more.
+    It must be more where consistent parameters alone are better by it, and not the fit itself.
     """
     judge, before = one.judge or seen.judge, _compute_log_error(seen.errors)
     errors, least = judge.compute_errors(one.data, possible=False), one.min_evidence
