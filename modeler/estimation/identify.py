@@ -65,7 +65,7 @@ class Estimator:
     @property
     def takes_torque_prior(self) -> bool:
         """Returns True of estimators that keep small what the motion does not show."""
-        return self.about.id in ("weighted", "robust", "consistent")
+        return self.about.id in ("weighted", "consistent")
 
 
 _ESTIMATES: dict[Method, Callable[[least_squares.Problem], least_squares.Estimate]] = {

