@@ -8,8 +8,8 @@ falls. beta is that of the physically consistent parameters nearest to a fit in 
 weighs 1 / e_j^2, so that sum_j log e_j is least, or that of a model whose torques are compared. A
 fault is reported if it lowers that sum enough, and does so as well as any other. A fault with a
 value that is fitted explains physics that the model lacks, too: it must explain more, and a delay
-must lower the error in every block of time, predicted from the others. What would stay unseen can
-be computed: the size at which a fault raises the error of a joint by a third, beside a refit.
+must lower the error in all blocks of time but one, predicted from the others. What would stay
+unseen can be computed: the size at which a fault raises a joint's error by a third, beside a refit.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -34,6 +34,7 @@ from modeler.estimation.gravity import (
 )
 from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.thresholds import THRESHOLDS
+from modeler.numerics.least_squares import solve_normal_equations
 from modeler.regression import DataWarning, Observation
 from modeler.runtime import CompiledModel, map_parts
 
@@ -99,7 +100,7 @@ class ResidualModel:
         prior = np.einsum("kcc->c", data.gram) / THRESHOLDS.max_thinned_rows
         for _ in range(THRESHOLDS.fault_reweightings):
             gram, cross = np.tensordot(weights, data.gram, 1), weights @ data.cross
-            beta = _solve_normal_equations(gram, cross, prior)
+            beta = solve_normal_equations(gram, cross, prior)
             weights = 1.0 / np.maximum(data.compute_errors(beta), THRESHOLDS.min_error) ** 2
         return beta, weights
 
@@ -118,19 +119,6 @@ class ResidualModel:
         root = np.sqrt(np.maximum(values, 0.0))[:, None] * vectors.T
         nearest = physical_consistency.project_parameters(self.machine, beta, root)
         return beta if nearest is None else nearest.beta
-
-
-def _solve_normal_equations(
-    gram: np.ndarray, cross: np.ndarray, prior: np.ndarray | float = 0.0
-) -> np.ndarray:
-    """Returns the solution, to a few digits; a ridge for what data and prior leave open.
-
-    The prior (c,) is added to the diagonal: each parameter alone makes no more torque than all.
-    """
-    gram = gram + np.diag(prior + np.zeros(len(gram)))
-    size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
-    scaled = gram / np.outer(size, size) + THRESHOLDS.normal_equation_ridge * np.eye(len(gram))
-    return np.asarray(np.linalg.solve(scaled, cross / size) / size)
 
 
 def _compute_log_error(errors: np.ndarray) -> float:
@@ -291,22 +279,30 @@ def _select_hypothesis(seen: Evidence) -> Hypothesis | None:
     tried += _propose_motion_faults(seen)
     scores = map_parts(partial(_compute_reduction, seen), tried)
     pairs = sorted(zip(scores, tried, strict=True), key=lambda pair: -pair[0])
-    candidates = [(score, one) for score, one in pairs if score >= one.min_evidence]
-    clock = next((one.speed for _, one in candidates if one.fault.code == "clock"), 1.0)
-    is_absent = any(one.fault.line.startswith(ABSENT) for _, one in candidates)
-    # the slower the better: no clock, but accelerations that nothing answers to
-    if is_absent or (clock < 1.0 and clock == min(one.speed for one in tried)):
+    tie, least = np.log(THRESHOLDS.equivalent_fault_ratio), 0.0
+    if seen.judge.beta is None:
+        least = tie + _compute_inertia_reduction(seen)
+    every = [pair for pair in pairs if pair[0] >= least or not pair[1].fault.is_certain]
+    candidates = [pair for pair in every if pair[0] >= pair[1].min_evidence]
+    if any(one.fault.line.startswith(ABSENT) for _, one in candidates):
         candidates = [pair for pair in candidates if pair[1].fault.code != "clock"]
     if not candidates:
         return None
-    least = candidates[0][0] - np.log(THRESHOLDS.equivalent_fault_ratio)
-    likely = [one for score, one in candidates if score >= least]
+    likely = [one for score, one in candidates if score >= candidates[0][0] - tie]
     line = "; or: ".join(dict.fromkeys(one.fault.line for one in likely[:3]))
     certain = all(one.fault.is_certain for one in likely)
     touched = tuple({j for one in likely for j in one.joints})
     names = tuple(seen.observation.joints[j].name for j in sorted(touched))
     fault = replace(likely[0].fault, line=line, is_certain=certain, joints=names)
     return Hypothesis(fault, likely[0].data, touched)
+
+
+def _compute_inertia_reduction(seen: Evidence) -> float:
+    """Returns the fall of the sum of logarithms by inertias of motors that a model lacks."""
+    inertia = seen.rows.motion[2][:, :, None] * np.eye(len(seen.observation.joints))
+    columns = np.concatenate([seen.rows.W, seen.rows.filter_values(inertia)], axis=2)
+    errors = seen.judge.compute_errors(seen.build_equations(columns), possible=False)
+    return _compute_log_error(seen.free_errors) - _compute_log_error(errors)
 
 
 def _compute_reduction(seen: Evidence, one: Hypothesis) -> float:
@@ -373,7 +369,7 @@ def _estimate_gain(seen: Evidence, place: int) -> float:
         weight, side = weights[place], -weights[place] * data.cross[place]
         gram = np.tensordot(weights, data.gram, 1)
         whole = np.block([[gram, side[:, None]], [side[None], np.array([[weight]])]])
-        solved = _solve_normal_equations(whole, np.append(weights @ data.cross + side, 0.0))
+        solved = solve_normal_equations(whole, np.append(weights @ data.cross + side, 0.0))
         gain = float(solved[-1])
         if not 1.0 / THRESHOLDS.max_unit_factor < abs(gain) < THRESHOLDS.max_unit_factor:
             break
@@ -678,7 +674,7 @@ def _compute_undetectable_sizes(seen: Evidence) -> dict[tuple[_Kind, int], float
                 change = _change_torque(seen, beta, kind, j, size) / size
                 both = _append_column(seen.data, seen, seen.rows.W, change)
                 gram = np.tensordot(weights, both.gram, 1)
-                refit = np.append(-_solve_normal_equations(gram[:-1, :-1], gram[:-1, -1]), 1.0)
+                refit = np.append(-solve_normal_equations(gram[:-1, :-1], gram[:-1, -1]), 1.0)
                 left = np.sqrt(np.maximum(refit @ both.gram @ refit, 1e-18))
                 size = min(float(np.min(least / left)), kind.largest)
             sizes[kind, place] = size

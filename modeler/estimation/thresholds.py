@@ -133,8 +133,6 @@ class Thresholds:
     """Rows of a joint whose torque may be exchanged."""
     min_rows_each: int = 3
     """Rows for every parameter: a fit of fewer describes anything."""
-    normal_equation_ridge: float = 1e-11
-    """Ridge of normal equations with columns of length one."""
     fault_reweightings: int = 4
     """Rounds of weights; they gain a digit each time."""
     max_sign_joints: int = 8

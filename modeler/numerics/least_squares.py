@@ -600,3 +600,16 @@ def _pack(matrix: np.ndarray) -> np.ndarray:
     """Returns (..., n (n + 1) / 2) upper triangles, columns one after the other, of (..., n, n)."""
     column, row = np.tril_indices(matrix.shape[-1])
     return matrix[..., row, column] * np.where(row == column, 1.0, np.sqrt(2.0))
+
+
+def solve_normal_equations(
+    gram: np.ndarray, cross: np.ndarray, prior: np.ndarray | float = 0.0
+) -> np.ndarray:
+    """Returns the solution, to a few digits; a ridge for what data and prior leave open.
+
+    The prior (c,) is added to the diagonal: each parameter alone makes no more torque than all.
+    """
+    gram = gram + np.diag(prior + np.zeros(len(gram)))
+    size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    scaled = gram / np.outer(size, size) + THRESHOLDS.normal_equation_ridge * np.eye(len(gram))
+    return np.asarray(np.linalg.solve(scaled, cross / size) / size)

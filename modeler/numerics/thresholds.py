@@ -24,6 +24,8 @@ class Thresholds:
     """Share of the longest column below which a column counts as zero: rounding."""
     min_named_share: float = 0.001
     """Share of a dependent column that another must carry to be named; no study."""
+    normal_equation_ridge: float = 1e-11
+    """Ridge of normal equations with columns of length one."""
     min_joint_eigenvalue: float = 1e-11
     """Eigenvalue of the Gram matrix over the largest below which columns are dependent: rounding
     of squares."""

@@ -97,9 +97,7 @@ def choose_filters(
     # rows of a joint without a motor say 0 = W beta: no block shows what they are worth
     if is_stated or not prepared.noise.moving or not all(j.actuated for j in model.spec.joints):
         return chosen
-    as_measured = dataclasses.replace(
-        asked, derivatives="position", low_speed=0.0, keep_contradicted=True
-    )
+    as_measured = dataclasses.replace(asked, derivatives="position", low_speed=0.0)
     plain = prepare.prepare_logs(model.spec, logs, as_measured, repair)
     comparison = _compare_filters(model, logs, chosen, plain)
     if comparison is None:
@@ -162,10 +160,7 @@ def _compare_filters(
     used, low = chosen.processing, dataclasses.replace(plain, processing=masked)
     search = CutoffSearch(model, plain)
     first = CutoffSearch(model, chosen).fit(used.position_cutoff, used.parallel_cutoff)
-    judges = [
-        CutoffSearch(model, plain).fit(smooth, judged),
-        CutoffSearch(model, low).fit(smooth, judged),
-    ]
+    judges = [each.fit(smooth, judged) for each in (search, CutoffSearch(model, low))]
     if first is None or None in judges:
         return None
     prior = compute_prior_weights(first.rows)

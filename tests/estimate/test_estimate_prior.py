@@ -300,6 +300,22 @@ def test_a_prior_that_raises_the_error_of_a_joint_is_named(model, monkeypatch):
     assert "the prior of the robot file raises its fit error from" in " ".join(result.contradicted)
 
 
+def test_bodies_that_predict_worse_than_nothing_are_left_out(model):
+    """Where rows repeat each other, data never contradict: the prior of another build would win."""
+    light = {name: 0.05 * value for name, value in NOMINAL.items()} | FRICTION
+    prior = build_prior(model.spec)
+    for chi, is_left_out in ((light, True), (true_chi(5), False)):
+        _, white, data = estimated_beside(model, 5, chi)
+        vague, none = 1e6 * white.covariance, np.zeros(len(white.beta))
+        assert prior.combine_with_data(white, data, vague).contradicted == ()
+        both, used, lines = prior.combine_if_useful(white, data, vague, none, "123")
+        errors = data.compute_residual_norms(both.beta) / data.compute_torque_norms()
+        assert errors.max() < 1.0 and bool(lines) is is_left_out
+        assert used.has_bodies is not is_left_out and set(used.groups) >= {"Fv1", "Fs3"}
+        for line in lines:
+            assert line.startswith("prior of the robot file on link 1, link 2, link 3: left out")
+
+
 def test_values_that_halves_disagree_about_do_not_leave_their_sums(tmp_path, monkeypatch):
     """Standard deviations that are raised one by one part an offset and a weight whose sum is
     known: with a prior the fit would leave more of the torque than without."""
