@@ -39,7 +39,7 @@ class Published:
 
 PUBLISHED = {
     "emps": Published((5.63,), HALVES),
-    "odrive_cogging": Published((93.5,), ("nothing", "joint 1: ")),
+    "odrive_cogging": Published((93.5,), ("prediction", "joint 1: ")),
     "tx40": Published((7.3, 6.6, 12.9, 11.5, 22.1, 16.3)),
     "ur10e": Published((10.4, 3.3, 3.4, 7.2, 11.3, 18.3)),
     "kinova_gen3": Published((28.8, 16.0, 15.0, 9.2, 12.5, 15.7, 6.9)),
