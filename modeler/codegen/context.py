@@ -284,7 +284,8 @@ class ModuleContext:
         shared = outputs and outputs[0][1].graph is self.model.graph
         block = make_block(outputs, self.places, turning, self.target, labels if shared else None)
         returns = "int" if function.status else "void"
-        if function.internal and function.unit in ("_fitted", "_control"):
+        tree = self.model.closure is not None and function.unit not in ("_fitted", "_control")
+        if function.internal and not tree:
             returns = "static void"
         made, declared, defined = format_state_prototypes(prefix, function, number)
         name = f"{prefix}_{function.role}"

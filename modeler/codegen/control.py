@@ -18,6 +18,7 @@ from typing import Any
 
 from modeler import derivation
 from modeler.codegen import functions as layout
+from modeler.codegen.advance import build_advance_functions, solve_linear
 from modeler.codegen.block import OF_PRECISION
 from modeler.codegen.closed import build_closed_dynamics
 from modeler.codegen.functions import Arguments, CFunction, Closed, Composed
@@ -83,7 +84,10 @@ def build_fitted_functions(
     values = fitted_constants(model, base, fitted)
     if model.closure is None:
         arguments = layout.make_arguments(model.robot.free_joints, model, base)
-        twins = layout.build_dynamics_functions(model, values, arguments)
+        stated = [s.value for order in (0, 1) for s in (w[order] for w in model.windups.values())]
+        elastic = [model.graph.constant(Fraction(repr(value))) for value in stated]
+        twins = [*layout.build_dynamics_functions(model, values, arguments)]
+        twins += build_advance_functions(model, base, values, elastic) if elastic else ()
         return tuple(remove_beta(f, FITTED_UNIT) for f in twins)
     tree, public = build_closed_dynamics(model, base, values)
     inner = [
@@ -110,7 +114,8 @@ def remove_beta(function: CFunction, unit: str) -> CFunction:
     if composed is not None:
         roles = {word: _twin(role) for word, role in composed.roles.items()}
         composed = replace(composed, roles=roles)
-    inputs, role = tuple(a for a in function.inputs if a.name != "beta"), _twin(function.role)
+    inputs = tuple(a for a in function.inputs if a.name not in ("beta", "elastic"))
+    role = _twin(function.role)
     changed = replace(function, unit=unit, role=role, inputs=inputs)
     return replace(changed, closed=closed, composed=composed)
 
@@ -208,31 +213,6 @@ def build_efforts(model: SymbolicModel, beta: Mapping[int, Expr]) -> Efforts:
     slopes = [differentiate(more, {f"qdd[{j}]": one}, kinks=True) for j in range(n)]
     matrix = [[entry + slopes[j][i] for j, entry in enumerate(row)] for i, row in enumerate(matrix)]
     return Efforts(matrix, model.derive_torque(beta), is_implicit=True)
-
-
-def solve_linear(
-    matrix: Sequence[Sequence[Expr]], right: Sequence[Expr]
-) -> tuple[list[Expr], list[Expr]]:
-    """Returns x of matrix x = right, and the pivots; one that is always 0 counts as 1 in x.
-
-    Gauss's elimination from the last row to the first. Equal expressions are one node of the graph,
-    so that a symmetric matrix costs half of one that is not.
-    """
-    n, one = len(right), right[0].graph.constant(1)
-    A, x = [list(row) for row in matrix], list(right)
-    inverse = [one] * n
-    for k in reversed(range(n)):
-        inverse[k] = one if A[k][k].is_zero else 1 / A[k][k]
-        for i in range(k):
-            if not A[i][k].is_zero:
-                share = A[i][k] * inverse[k]
-                A[i][:k] = [A[i][j] - share * A[k][j] for j in range(k)]
-                x[i] = x[i] - share * x[k]
-    for k in range(n):
-        for j in range(k):
-            x[k] = x[k] - A[k][j] * x[j]
-        x[k] = x[k] * inverse[k]
-    return x, [A[k][k] for k in range(n)]
 
 
 def build_forward_functions(

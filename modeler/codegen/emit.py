@@ -8,6 +8,7 @@ from functools import cache
 import sympy
 
 from modeler.codegen import closed, elimination, functions as layout
+from modeler.codegen.advance import build_advance_functions
 from modeler.codegen.block import OF_PRECISION, TILES, Target
 from modeler.codegen.closed import LoopSolver
 from modeler.codegen.context import (
@@ -44,6 +45,7 @@ from modeler.core.manifest import EmittedModule, FittedSpec, FunctionSpec, Modul
 from modeler.derivation import (
     BaseParameters,
     Label,
+    Signal,
     SymbolicModel,
     evaluate_precisely,
     format_coefficient,
@@ -84,6 +86,10 @@ def build_module_spec(model: SymbolicModel, base: BaseParameters) -> ModuleSpec:
         for column in model.columns
     )
     measured = [robot.joints[s.row].name if s.row >= 0 else "" for s in model.signals]
+
+    def format_unit(signal: Signal) -> str:
+        return manifest.SIGNALS[signal.kind].format(angle=robot.joints[signal.row].unit)
+
     return ModuleSpec(
         robot=robot.name,
         title=robot.title,
@@ -97,7 +103,7 @@ def build_module_spec(model: SymbolicModel, base: BaseParameters) -> ModuleSpec:
         functions=(),
         closure=closing,
         signals=tuple(
-            manifest.SignalSpec(signal.kind, joint, manifest.SIGNALS[signal.kind], signal.value)
+            manifest.SignalSpec(signal.kind, joint, format_unit(signal), signal.value)
             for signal, joint in zip(model.signals, measured, strict=True)
         ),
         inertial_uncertainty=robot.uncertainty.get("inertial"),
@@ -252,7 +258,9 @@ def _build_parts(
 ) -> Iterator[Sequence[CFunction]]:
     """The functions of the robot, those with its fitted values, those of the controller's unit."""
     if solving is None:
-        yield layout.build_tree_functions(model, base)
+        beta = layout.make_beta_symbols(model, base)
+        advance = build_advance_functions(model, base, beta)
+        yield (*layout.build_tree_functions(model, base), *advance)
     else:
         yield closed.build_closed_functions(model, base, solving)
     yield build_fitted_functions(model, base, fitted) if fitted is not None else ()
@@ -302,6 +310,7 @@ def _build_module(
     parameters += [f"chi[{k}]" for k in range(len(model.columns))]
     parameters += solving.symbols if solving is not None else []
     parameters += ["dt[0]", *(f"s[{k}]" for k in range(len(model.signals)))]
+    parameters += [f"elastic[{k}]" for k in range(2 * len(model.windups))]
     names = layout.name_constants(prefix, model.geometry.values)
     spec = dataclasses.replace(
         build_module_spec(model, base),
@@ -358,10 +367,26 @@ def _build_module(
             )
             for restrict in ("", _RESTRICT)
         ],
+        "windup": [
+            layout.format_prototype(
+                f"{prefix}_windup",
+                [
+                    "size_t samples",
+                    *states[:3],
+                    f"{target.number} step",
+                    *(f"const {target.number} *{name}" for name in ("beta", "elastic")),
+                    f"{target.number} *{restrict}s",
+                ],
+            )
+            for restrict in ("", _RESTRICT)
+        ],
+        "windup_places": ", ".join(map(str, spec.windups)),
         "counts": (len(spec.joints), len(spec.standard), len(spec.base), len(spec.nonzeros)),
         "nonzero_rows": layout.wrap_names([row for row, _ in shown]),
         "nonzero_columns": layout.wrap_names([column for _, column in shown]),
         "loops": loops,
+        "elastic": len(spec.windups),
+        "travels": any(s.kind in ("slip", "direction") for s in spec.signals),
         "plain": not layout.needs_more_than_speed(model),
         "signature": "",
         "tile": _build_tile(spec, functions, module.places, labels),
@@ -409,7 +434,8 @@ def _build_fitted_unit(
         written, module.symbols.texts
     )
     values |= {"inner": [f for f in written if f.internal], "geometry": [*module.symbols.macros]}
-    values |= {"outer": [f for f in written if not f.internal]}
+    loops = module.spec.closure is not None
+    values |= {"outer": [f for f in written if not (f.internal and loops)]}
 
     def files(fitted: FittedSpec) -> dict[str, str]:
         names = {f"{prefix}{FITTED_UNIT}.{kind}": f"fitted.{kind}" for kind in ("h", "c")}
@@ -482,6 +508,7 @@ def _render_code(module: ModuleContext) -> dict[str, str]:
         files[f"{prefix}_batch.{kind}"] = module.render(f"batch.{kind}")
     runtime: tuple[str, ...] = (*manifest.RUNTIME, *manifest.BATCH_RUNTIME)
     runtime += manifest.LAW_RUNTIME if spec.laws else ()
+    runtime += manifest.CONTROL_RUNTIME if spec.windups else ()
     if spec.closure is not None:  # the opened tree's functions, and what closes the loops
         inner = [f for f in functions if f.internal]
         outer = [f for f in functions if f.unit == "_loops"]

@@ -6,7 +6,6 @@ import tomllib
 import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
@@ -21,12 +20,8 @@ from modeler.derivation import (
     BaseParameters,
     Expr,
     ShaftColumn,
-    Signal,
     SymbolicModel,
-    combine_linearly,
-    evaluate_followed,
     format_relation,
-    get_signal_symbol,
 )
 from modeler.effects import EffectTarget
 from modeler.robot import Joint
@@ -225,10 +220,10 @@ def build_tree_functions(model: SymbolicModel, base: BaseParameters) -> tuple[CF
     beta = make_beta_symbols(model, base)
     functions += build_dynamics_functions(model, beta, arguments)
     functions.append(build_grouping_function(model, base, arguments))
-    poses = model.derive_forward_kinematics()
+    poses = model.rigid.derive_forward_kinematics()
     numbers = [value for pose in poses for row in pose for value in row]
     kinematics = arguments.declare("forward_kinematics", numbers, {"rows": len(poses)})
-    return (*functions, kinematics, *_build_advance(model, arguments))
+    return (*functions, kinematics)
 
 
 def make_arguments(
@@ -241,6 +236,7 @@ def make_arguments(
     words: dict[str, Any] = {"angle": angle, "rate": rate, "effort": effort}
     words |= {"acceleration": acceleration}
     words |= {"n": len(joints), "p": len(model.columns), "c": base.rank}
+    words |= {"elastic": 2 * len(model.windups)}
     shared = Arguments("", {}, words).extend("shared", signals=len(model.signals))
     if not model.signals:
         shared = replace(shared, specs={k: x for k, x in shared.specs.items() if k != "s"})
@@ -292,9 +288,9 @@ def build_dynamics_functions(
     losses = {k: v for k, v in beta.items() if model.columns[k].kind != "rotor_inertia"}
     torque, still = model.derive_torque, {"accelerations": False, "effects": False}
     values = {  # in this order: it is that of the names in the C
-        "inertia_matrix": [value for row in model.derive_inertia_matrix(beta) for value in row],
-        "gravity": torque(beta, speeds=False, **still),
-        "coriolis": torque(beta, gravity=False, **still),
+        "inertia_matrix": [x for row in model.rigid.derive_inertia_matrix(beta) for x in row],
+        "gravity": model.rigid.derive_torque(beta, speeds=False, **still),
+        "coriolis": model.rigid.derive_torque(beta, gravity=False, **still),
         "friction": torque(losses, links=False),
     }
     values = {"inverse_dynamics": torque(beta), **values}
@@ -339,56 +335,6 @@ def needs_torques(model: SymbolicModel) -> bool:
 
 
 _TORQUES = ("load", "static", "torque")
-
-
-def _build_advance(model: SymbolicModel, arguments: Arguments) -> list[CFunction]:
-    """The signals one sample later: inner states are stepped; temperatures are measured."""
-    if not model.signals:
-        return []
-    values = dict[Signal, Expr]()
-    for signal in model.signals:
-        values[signal] = _advance_signal(model, signal, values)
-    motion = "q qd qdd" if any(s.follows for s in model.signals) else ""
-    return [arguments.declare("advance", list(values.values()), {"motion": motion})]
-
-
-def _advance_signal(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -> Expr:
-    """A signal one sample later, from those before it now."""
-    graph = model.graph
-
-    s, dt = get_signal_symbol(model, signal), graph.symbol("dt[0]")
-    one, two = graph.constant(1), graph.constant(2)
-    if signal.kind == "time":
-        return s + dt
-    if signal.kind == "temperature":
-        return s
-    if signal.kind == "followed":
-        return evaluate_followed(model, signal, now)
-    if signal.kind == "lag":  # the mean of what it follows at both ends of the step
-        (other,) = signal.prerequisites
-        mean = (get_signal_symbol(model, other) + now[other]) / two
-        tau = graph.constant(Fraction(repr(signal.value)))
-        return mean + (s - mean) * graph.call("exp", -(dt / tau))
-    index = model.geometry.rows[signal.row].index
-    assert index is not None
-    way = combine_linearly(graph, model.geometry.forms[index], model.get_inputs("dq"))
-    share = way / graph.constant(Fraction(repr(signal.value)))
-    if signal.kind == "slip":  # Dahl's bristle, exact where the direction is constant
-        toward = graph.call("sign", way)
-        return toward + (s - toward) * graph.call("exp", -graph.call("abs", share))
-    direction = (
-        s if signal.kind == "direction" else get_signal_symbol(model, signal.prerequisites[0])
-    )
-    moved = direction + share
-    both = graph.call("sign", direction) * graph.call("sign", moved)
-    turned = (graph.call("abs", both) - both) / two  # 1 where it has come back far enough, else 0
-    if signal.kind == "direction":
-        held = (graph.call("abs", moved + one) - graph.call("abs", moved - one)) / two
-        return held + turned * (graph.call("sign", moved) - held)
-    # That way took twice as long, at constant acceleration, as at the speed that it ended with.
-    size = graph.call("abs", share) + graph.constant(Fraction(1, 10**30))  # it may be 0
-    longer = s + dt - two * (one + graph.call("abs", moved)) * dt / size
-    return s + dt - turned * (longer + graph.call("abs", longer)) / two
 
 
 def build_grouping_function(

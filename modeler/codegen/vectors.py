@@ -157,6 +157,9 @@ def _make_inputs(model: SymbolicModel, states: int) -> dict[str, Table]:
         "s": make_table(len(model.signals), lambda i, state: (i + 1 + 2 * state) / 16),
         "dq": make_table(coordinates, spread(3, 1 / 512)),
         "dt": make_table(1, lambda i, state: (state + 1) / 256),
+        "elastic": make_table(
+            2 * len(model.windups), lambda i, state: 512.0 if i < len(model.windups) else 1.0
+        ),
         # Inertias of bodies that can be: their matrix is positive definite.
         "chi": [
             [
@@ -220,7 +223,7 @@ def _evaluate_tables(
             qd, qdd = np.array(inputs["qd"][k]), np.array(inputs["qdd"][k])
             moving, standing = (enclosures.enclose_state(u, qd, a) for a in (qdd, 0.0 * qdd))
             signals = _name_entries(
-                **{each: inputs[each][k] for each in ("s", "dq", "dt", "v", "a")}
+                **{each: inputs[each][k] for each in ("s", "dq", "dt", "v", "a", "elastic")}
             )
             for role, f in roles.items():
                 c = f.closed or _DIRECT
@@ -259,8 +262,10 @@ def _solve_composed(
     damping: Mapping[str, Ball],
     outputs: Callable[[str, Mapping[str, Ball]], list[Ball]],
 ) -> list[Ball]:
-    """Output of a function that solves with the inertia matrix; [] where that has no meaning."""
+    """Output of a function with a status; [] where the inertia matrix gives it no meaning."""
     assert f.composed is not None
+    if f.composed.kind == "stepped":
+        return outputs(f.composed.roles["step"], inputs)
     head = "fitted_" * f.role.startswith("fitted_")
     M = outputs(f"{head}inertia_matrix", inputs)
     n, matrix = math.isqrt(len(M)), load_flint().arb_mat

@@ -184,6 +184,9 @@ SIGNALS = {
     "since": "s",  # time since it last turned back, by the direction before it
     "followed": "SI",  # what the lag after it follows
     "lag": "SI",  # z' = (x - z)/tau of the entry before it
+    "windup": "{angle}",  # of an elastic joint: motor less link
+    "windup_rate": "{angle}/s",
+    "windup_acceleration": "{angle}/s2",
 }
 """Kind of a signal -> its unit."""
 
@@ -196,7 +199,8 @@ class SignalSpec:
     joint: str  # whose temperature or inner state; "" for the time
     unit: str
     value: (
-        float  # rad or m: travel over which the bristle turns, way back that is a reversal; tau, s
+        float  # rad or m: travel over which the bristle turns, way back that is a reversal; tau, s;
+        # of a windup the joint's stiffness, of its rate the damping: SI
     )
 
     @property
@@ -285,6 +289,17 @@ class ModuleSpec(ShortRepr):
         return (*self.functions, *(function for unit in more for function in unit))
 
     @property
+    def windups(self) -> tuple[int, ...]:
+        """Returns the places in s of e of the elastic joints; e' and e'' follow."""
+        return tuple(k for k, signal in enumerate(self.signals) if signal.kind == "windup")
+
+    @property
+    def elastic(self) -> tuple[float, ...]:
+        """Returns stiffness, then damping of the elastic joints, as the robot file has them."""
+        places = (*self.windups, *(k + 1 for k in self.windups))
+        return tuple(self.signals[k].value for k in places)
+
+    @property
     def nonzeros(self) -> tuple[tuple[int, int], ...]:
         """Returns (joint, base column) of the structural nonzeros of the base regressor.
 
@@ -316,7 +331,7 @@ class ModuleSpec(ShortRepr):
         if self.closure is not None:
             units += ["_tree.h", "_loops.c"]
             runtime += CLOSURE_RUNTIME
-        if self.control is not None:
+        if self.control is not None or self.windups:
             runtime += [name for name in CONTROL_RUNTIME if name not in runtime]
         return (*(self.prefix + unit for unit in units), *runtime)
 

@@ -81,6 +81,7 @@ from .kinematics import (
 )
 from .lagrange import compute_lagrange_torque as compute_lagrange_torque
 from .model import (
+    MOTOR_MOTION as MOTOR_MOTION,
     Entries as Entries,
     LinkColumn as LinkColumn,
     ShaftColumn as ShaftColumn,

@@ -126,7 +126,7 @@ def build_grouping_units(geometry: Geometry, columns: Sequence[StandardColumn]) 
         for part in standard.parts:
             if isinstance(part, LinkColumn):
                 places[part.row, INERTIAL.index(part.prefix)] = len(unit_columns)
-            elif part.effect in _OWN:
+            elif part.effect in _OWN and part.block is not EnergyBlock.OWN:
                 places[part.row, _OWN[part.effect]] = len(unit_columns)
             unit_columns.append(part)
             owner.append(column)

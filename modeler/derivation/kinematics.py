@@ -7,6 +7,7 @@ rotations, so that right angles cost nothing and general ones eight multiplicati
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from types import MappingProxyType
 from typing import Any, Protocol
 
 import sympy
@@ -44,11 +45,17 @@ class Algebra(Protocol):
 
 
 class GraphAlgebra:
-    """Expressions of a graph; its symbols `q[0]`, `qd[0]`, ... are those of the free variables."""
+    """Expressions of a graph; its symbols `q[0]`, `qd[0]`, ... are those of the free variables.
 
-    def __init__(self, graph: Graph, geometry: Geometry) -> None:
+    Links behind elastic joints have the positions `links` instead.
+    """
+
+    def __init__(
+        self, graph: Graph, geometry: Geometry, links: Mapping[int, Expr] = MappingProxyType({})
+    ) -> None:
         self.graph = graph
         self.geometry = geometry
+        self.links = links
         for row in geometry.rows:
             before = "0" if row.parent is None else geometry.rows[row.parent].joint.name
             moves = "turning" if row.joint.is_revolute else "sliding"
@@ -96,7 +103,8 @@ class GraphAlgebra:
         assert row.index is not None
         form = self.geometry.forms[row.index]
         symbols = {k: self.graph.symbol(f"{kind}[{k}]") for k in form}
-        return combine_linearly(self.graph, form, symbols)
+        links = self.links if kind == "q" else {}
+        return combine_linearly(self.graph, form, {**symbols, **links})
 
     def cos_sin(self, row: GeometryRow) -> tuple[Expr, Expr]:
         """Returns cosine and sine of theta; right angles are taken out exactly."""

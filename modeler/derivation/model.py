@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from typing import Any, Self, TypeAlias, TypeGuard
@@ -133,7 +133,9 @@ def build_link_column(prefix: str, row: int, joint: Joint) -> LinkColumn:
 
 def _build_effect_columns(geometry: Geometry, row: int, joint: Joint) -> list[ShaftColumn]:
     effect_columns = []
-    for effect, form, instance in geometry.robot.find_joint_effects(joint.name):
+    effects = geometry.robot.find_joint_effects(joint.name)
+    is_elastic = any(form.is_windup for _, form, _ in effects)
+    for effect, form, instance in effects:
         for column in form.columns:
             effect_columns.append(
                 ShaftColumn(
@@ -144,7 +146,8 @@ def _build_effect_columns(geometry: Geometry, row: int, joint: Joint) -> list[Sh
                     kind=column.kind,
                     effect=effect.id,
                     equation=column.equation,
-                    block=column.block,
+                    # the motor of an elastic joint moves by itself, whatever its link does
+                    block=EnergyBlock.OWN if is_elastic else column.block,
                     nonnegative=column.nonnegative,
                     shaft=_derive_shaft(geometry, joint, effect.is_coupled),
                     acts=effect.acts,
@@ -172,6 +175,10 @@ def parse_decimal_fraction(value: float) -> Fraction:
 
 
 # What effects read besides the motion: time, temperatures, inner states. Inputs `s` of the C.
+
+
+WINDUP = ("windup", "windup_rate", "windup_acceleration")
+"""Kinds of the three signals of an elastic joint: e = q_motor - q_link, e', e''."""
 
 
 @dataclass(frozen=True)
@@ -235,6 +242,23 @@ def collect_signals(columns: Sequence[StandardColumn]) -> tuple[Signal, ...]:
     return tuple(signals)
 
 
+def find_windups(geometry: Geometry) -> dict[int, tuple[Signal, ...]]:
+    """Returns the signals e, e', e'' of elastic joints, by the free variable that is the motor's.
+
+    The first has the stiffness, the second the damping as its value.
+    """
+    windups = {}
+    for row, joint in enumerate(geometry.robot.joints):
+        index = geometry.rows[row].index
+        for _, form, instance in geometry.robot.find_joint_effects(joint.name):
+            if form.is_windup and form.internal_state is not None and index is not None:
+                state, values = form.internal_state, instance.nonlinear_parameters
+                sizes = (values[state.parameter], values[state.damping], 0.0)
+                (k,) = geometry.forms[index]  # of a joint that turns with no other
+                windups[k] = tuple(map(Signal, WINDUP, [row] * 3, sizes))
+    return windups
+
+
 def map_column_signals(column: ShaftColumn) -> dict[str, Signal]:
     """Returns the signals that a column reads, by the variable of its equation."""
     names, memory = column.equation.names, column.memory
@@ -275,6 +299,10 @@ class SymbolicModel(ShortRepr):
         special: joints that follow others by relations which the loops imply at the given lengths
             and angles only.
         unproven: joints that seemed to follow others by a relation that was not proven.
+        deflections: e, e', e'' of elastic joints, motor less link, by free variable, as another
+            function has them than by the signals; None: the signals.
+        motors: positions, speeds, accelerations of the motors by "q", "qd", "qdd", where they are
+            not the inputs of these names.
     """
 
     robot: Robot
@@ -283,6 +311,8 @@ class SymbolicModel(ShortRepr):
     columns: tuple[StandardColumn, ...]
     special: tuple[str, ...] = ()
     unproven: tuple[str, ...] = ()
+    deflections: Mapping[int, Sequence[Expr]] | None = None
+    motors: Mapping[str, Sequence[Expr]] = field(default_factory=dict)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -292,7 +322,28 @@ class SymbolicModel(ShortRepr):
     @cached_property
     def algebra(self) -> GraphAlgebra:
         """Returns the graph as numbers for the recursions."""
-        return GraphAlgebra(self.graph, self.geometry)
+        links = self.get_link_inputs("q") if self.windups else []
+        return GraphAlgebra(self.graph, self.geometry, {k: links[k] for k in self.windups})
+
+    @cached_property
+    def windups(self) -> dict[int, tuple[Signal, ...]]:
+        """Returns the signals e, e', e'' of elastic joints, by free variable."""
+        return find_windups(self.geometry)
+
+    @property
+    def rigid(self) -> "SymbolicModel":
+        """Returns the model whose positions are those of the links: no joint winds up."""
+        return replace(self, deflections={}) if self.windups else self
+
+    def get_link_inputs(self, kind: str) -> list[Expr]:
+        """Returns "q", "qd" or "qdd" of the links: those of the motors less e, e' or e''."""
+        inputs, order = self.get_inputs(kind), MOTOR_MOTION.index(kind)
+        for k, signals in self.windups.items():
+            if self.deflections is None:
+                inputs[k] = inputs[k] - get_signal_symbol(self, signals[order])
+            elif k in self.deflections:
+                inputs[k] = inputs[k] - self.deflections[k][order]
+        return inputs
 
     @cached_property
     def frames(self) -> list[Pose]:
@@ -301,6 +352,8 @@ class SymbolicModel(ShortRepr):
 
     def get_inputs(self, kind: str) -> list[Expr]:
         """Returns the symbols of `kind` "q", "qd", "qdd", "v" or "a", of the free variables."""
+        if kind in self.motors:
+            return list(self.motors[kind])
         return [self.graph.symbol(f"{kind}[{k}]") for k in range(self.geometry.coordinate_count)]
 
     @cached_property
@@ -352,7 +405,7 @@ class SymbolicModel(ShortRepr):
         Inertial columns by Newton-Euler in screw form: the wrench of one unit of a parameter,
         projected on every joint below; effect columns from their definition.
         """
-        moved = self.derive_link_motions(self.get_inputs("qd"), self.get_inputs("qdd"))
+        moved = self.derive_link_motions(self.get_link_inputs("qd"), self.get_link_inputs("qdd"))
         derive_effects = partial(derive_effect_entries, self)
         entries = self.assemble_entries(self.build_projection(moved), derive_effects)
         self._labels.update(self.graph.labels)
@@ -423,7 +476,8 @@ class SymbolicModel(ShortRepr):
     @cached_property
     def signals(self) -> tuple[Signal, ...]:
         """Returns the signals that effects read besides the motion: the input `s`, in order."""
-        return collect_signals(self.columns)
+        windups = (signal for signals in self.windups.values() for signal in signals)
+        return (*collect_signals(self.columns), *windups)
 
     def derive_reference_torque(self, kind: str) -> list[Expr]:
         """Returns torques along the free variables at the parameters of `[reference]`.
@@ -465,8 +519,8 @@ class SymbolicModel(ShortRepr):
         """
         zero = self.graph.constant(0)
         none = [zero] * self.geometry.coordinate_count
-        qd = self.get_inputs("qd") if speeds else none
-        qdd = self.get_inputs("qdd") if accelerations else none
+        qd = self.get_link_inputs("qd") if speeds else none
+        qdd = self.get_link_inputs("qdd") if accelerations else none
         tau = list(none)
         if links:
             moved = self.derive_link_motions(qd, qdd, gravity)
@@ -491,14 +545,16 @@ class SymbolicModel(ShortRepr):
                     rows[part.row][part.prefix] = value
         return rows
 
-    def derive_inertia_matrix(self, parameters: Mapping[int, Expr]) -> list[list[Expr]]:
-        """Returns M(q) of the free variables, rotor inertias of the effects included."""
+    def derive_inertia_matrix(
+        self, parameters: Mapping[int, Expr], rotors: bool = True
+    ) -> list[list[Expr]]:
+        """Returns M(q) of the free variables, rotor inertias of the effects included or not."""
         zero = self.graph.constant(0)
         rows = self.collect_link_parameters(parameters)
         tree = kinematics.compute_inertia_matrix(self.geometry, self.frames, rows, zero)
         half = [self.reduce_to_free(line) for line in tree]
         matrix = [self.reduce_to_free([line[k] for line in half]) for k in range(len(half[0]))]
-        for i, j, value in self.enumerate_rotor_inertias(parameters):
+        for i, j, value in self.enumerate_rotor_inertias(parameters) if rotors else ():
             matrix[i][j] = matrix[i][j] + value
         return matrix
 
@@ -529,11 +585,12 @@ class SymbolicModel(ShortRepr):
 # Columns of effects as expressions of the graph, from the equations that define them.
 
 
-_MEASURED = ("q", "qd", "qdd")
+MOTOR_MOTION = ("q", "qd", "qdd")
+"""What is measured: positions of motors, of which elastic joints are not the links'."""
 
 
 def derive_effect_entries(
-    model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = _MEASURED
+    model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = MOTOR_MOTION
 ) -> dict[int, Expr]:
     """Returns {free variable: torque along it per unit of the column's parameter}.
 
@@ -549,7 +606,7 @@ def derive_effect_entries(
 
 
 def _evaluate_equation(
-    model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = _MEASURED
+    model: SymbolicModel, column: ShaftColumn, motion: Sequence[str] = MOTOR_MOTION
 ) -> Expr:
     """The equation of the column on its shaft."""
     signals = map_column_signals(column)
@@ -570,7 +627,7 @@ def evaluate_followed(model: SymbolicModel, signal: Signal, now: Mapping[Signal,
     read = {name: now[other] for name, other in signal.input_signals.items()}
     shaft = model.geometry.forms[index]
     values = dict(signal.nonlinear_parameters)
-    return _evaluate_on_shaft(model, signal.follows, shaft, values, read, _MEASURED)
+    return _evaluate_on_shaft(model, signal.follows, shaft, values, read, MOTOR_MOTION)
 
 
 def _evaluate_on_shaft(

@@ -39,7 +39,7 @@ _SLIPS = (
     "{d = [0.002, 0.02"
 )
 _LAGS = "lags by a time, which has no positive values here; add it, as in shapes = {tau = [0.1, 1"
-_FURTHER = "scale limits meaning prismatic_unit kind energy largest resonance forms needs"
+_FURTHER = "scale limits meaning prismatic_unit kind energy largest resonance windup forms needs"
 _CATALOGUE_KEYS = (*_KEYS, *_FURTHER.split())
 """What the catalogue says of an effect, besides fields of `Effect` as they are."""
 
@@ -173,6 +173,8 @@ def _read_form(
     known = dataclasses.replace(
         known, nonlinear_parameters=[shape.name for shape in shapes], law=law
     )
+    if "windup" in table:
+        return Form((), shapes, InternalState("windup", *table["windup"]))
     columns = _read_columns(table, known, taken, place)
     memory, remembers = None, any("z" in column.equation.names for column in columns)
     if "resonance" in table:

@@ -68,6 +68,8 @@ SCALES: Mapping[str, tuple[str, str]] = {
     "turn": ("1", "1/m"),  # one per rad; for a prismatic joint, a turn per stroke
     "number": ("1", "1"),
     "angle": ("rad", "rad"),
+    "stiffness": ("N m/rad", "N/m"),
+    "damping": ("N m s/rad", "N s/m"),
     "seconds": ("s", "s"),
     "hertz": ("Hz", "Hz"),
     "waves": ("1", "1/m"),  # per turn; found in the order spectrum where the grid has none
@@ -112,13 +114,14 @@ class InternalState:
     Attributes:
         kind: "slip": z' = (v/d)(1 - z sign v), the bristle of Dahl's friction; "resonance": the
             load through the oscillator z'' = w^2 (load - z) - 2 zeta w z', w = 2 pi f; "lag":
-            z' = (x - z)/tau.
-        shape: name of the shape parameter that sets it (d, f or tau).
-        damping: of a resonance, name of the shape parameter that is zeta.
+            z' = (x - z)/tau; "windup": of an elastic joint, e = q_motor - q_link, by which all
+            that the links do is behind: no column reads it.
+        shape: name of the shape parameter that sets it (d, f, tau or K).
+        damping: of a resonance or a windup, name of the shape parameter that is zeta or D.
         follows: of a lag, x.
     """
 
-    kind: Literal["slip", "resonance", "lag"]
+    kind: Literal["slip", "resonance", "lag", "windup"]
     parameter: str
     damping: str = ""
     lagged_input: Expression | None = None
@@ -192,6 +195,11 @@ class Form(ShortRepr):
     def free_parameters(self) -> tuple[NonlinearParameter, ...]:
         """Returns shapes that a robot file must state: those whose grid does not fix them."""
         return tuple(shape for shape in self.nonlinear_parameters if len(shape.grid) != 1)
+
+    @property
+    def is_windup(self) -> bool:
+        """Returns True of an elastic joint, which has no columns."""
+        return self.internal_state is not None and self.internal_state.kind == "windup"
 
     @cached_property
     def names(self) -> frozenset[str]:
@@ -306,7 +314,12 @@ class Effect(ShortRepr):
             EffectTarget.POSITION,
             EffectTarget.PASSIVE,
         )
-        return acts and not self.obstacle
+        return acts and (not self.obstacle or self.usual_form.is_windup)
+
+    @property
+    def usual_form(self) -> Form:
+        """Returns the form that a robot file usually states: the first, or an elastic joint's."""
+        return next((form for form in self.forms if form.is_windup), self.forms[0])
 
     @property
     def is_coupled(self) -> bool:

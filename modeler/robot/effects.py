@@ -18,7 +18,7 @@ from modeler.effects import (
     read_definition,
 )
 from modeler.robot.cells import read_number
-from modeler.robot.robot import INERTIAL, EffectInstance, EffectUse
+from modeler.robot.robot import INERTIAL, EffectInstance, EffectUse, Robot
 from modeler.robot.sections import Coupling, Joints, find_joint
 
 _ID = re.compile(r"[a-z][a-z0-9_]*")
@@ -115,7 +115,7 @@ def read_effects(
         rows = {row: joint for row, joint in moving.items() if row not in excluded_rows}
         if isinstance(cell, list) and any(isinstance(entry, dict) for entry in cell):
             uses[effect.id] = _read_effect_instances(effect, rows, coupling, here)
-        elif effect.forms[0].free_parameters:
+        elif effect.usual_form.free_parameters:
             raise here.make_mismatch(f"its shapes, as in {_format_example(effect)}")
         else:  # shapes of one value have that value
             joints = _read_effect_joints(effect, rows, coupling, here)
@@ -145,8 +145,40 @@ def read_effects(
 def needs_reference(effect: Effect, instance: EffectInstance) -> bool:
     """Returns True if the effect depends on the torques of the links."""
     loads = {"load", "static", "torque"}
-    named = not effect.forms[instance.form].names.isdisjoint(loads)
-    return named or effect.acts is EffectTarget.POSITION
+    form = effect.forms[instance.form]
+    if form.is_windup:
+        return False
+    return not form.names.isdisjoint(loads) or effect.acts is EffectTarget.POSITION
+
+
+def check_elastic_joints(robot: Robot, place: TomlCell) -> None:
+    """Refuses elastic joints whose motion the C cannot step.
+
+    Raises:
+        RobotError: of a robot with loops, of a joint that turns with others, or without rotor.
+    """
+    tied = {*robot.coupling, *(name for row in robot.coupling.values() for name in row)}
+    tied |= {*robot.relations, *(q[1:] for x in robot.relations.values() for q in x.names)}
+    every = {joint: robot.find_joint_effects(joint.name) for joint in robot.moving_joints}
+    forms = [form for effects in every.values() for _, form, _ in effects]
+    for joint, effects in every.items():
+        name = joint.name
+        windups = [effect.id for effect, form, _ in effects if form.is_windup]
+        why = ""
+        if len(windups) > 1:
+            why = "stands there twice; keep one of them"
+        elif robot.loops:
+            why = "cannot be elastic in a robot with loops; leave it out"
+        elif name in tied:
+            why = "turns with other joints, by [relations], [coupling] or [motors]; leave it out"
+        elif not joint.actuated:
+            why = "has no motor, which the elasticity would carry; leave it out"
+        elif any(form.internal_state and form.internal_state.kind == "lag" for form in forms):
+            why = "and an effect that lags need each other's motion; leave one of them out"
+        elif not robot.has_effect("rotor_inertia", name):
+            why = f'has no inertia of its motor; add "{name}" to rotor_inertia'
+        if windups and why:
+            raise place.enter(windups[0]).make_error(f"joint {quote_value(name)} {why}")
 
 
 def _read_effect(name: str, catalogue: Sequence[Effect], place: TomlCell) -> Effect:
@@ -224,7 +256,8 @@ def _read_effect_instances(
         ) in form.nonlinear_parameters:  # lengths, times, powers below zero; ripples without waves
             parameter_value, waves = shapes[shape.name], shape.scale == "waves"
             positive = waves or (shape.scale != "own" and min(shape.grid) >= 0.0)
-            if positive and (parameter_value < 0.0 or (waves and parameter_value == 0.0)):
+            above = waves or shape.scale == "stiffness"
+            if positive and (parameter_value < 0.0 or (above and parameter_value == 0.0)):
                 raise here.enter(shape.name).make_error(
                     f"got {parameter_value:g} ({shape.meaning}); expected a number above 0"
                 )
@@ -242,6 +275,8 @@ def _read_effect_instances(
 def _find_form(effect: Effect, stated_values: Mapping[str, Any], place: TomlCell) -> int:
     """Place of the form that these shapes belong to."""
     for number, form in enumerate(effect.forms):
+        if effect.usual_form.is_windup and not form.is_windup:
+            continue  # what a diagnosis tries
         zeros = {_ZERO[name] for name in form.names if name in _ZERO}
         if (
             {s.name for s in form.free_parameters}
@@ -257,6 +292,6 @@ def _find_form(effect: Effect, stated_values: Mapping[str, Any], place: TomlCell
 
 def _format_example(effect: Effect) -> str:
     """How the effect is written."""
-    shapes = effect.forms[0].free_parameters or effect.forms[-1].free_parameters
+    shapes = effect.usual_form.free_parameters or effect.forms[-1].free_parameters
     values = "".join(f", {s.name} = {s.grid[0] if s.grid else 7:g}" for s in shapes)
     return f'{effect.id} = [{{joint = "2"{values}}}]'

@@ -25,7 +25,12 @@ from modeler.robot.cells import (
     read_gravity,
     read_symbols,
 )
-from modeler.robot.effects import needs_reference, read_effects, read_own_effects
+from modeler.robot.effects import (
+    check_elastic_joints,
+    needs_reference,
+    read_effects,
+    read_own_effects,
+)
 from modeler.robot.mechanism import (
     build_motor_rows,
     check_driven,
@@ -242,6 +247,7 @@ def _read_tables(
         diagnose=read_diagnose(locate_section("diagnose")),
         frames=read_frames(place.enter("[frames]", document.get("frames")), rows, values),
     )
+    check_elastic_joints(robot, here)
     tool = read_tool(place.enter("[tool]", document.get("tool")), robot, values)
     capsules, planes = read_capsules(locate_section("capsules"), rows, values)
     return dataclasses.replace(robot, tool=tool, capsules=capsules, planes=planes)

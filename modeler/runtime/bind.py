@@ -205,6 +205,29 @@ class Library(_ArrayLibrary):
         self._get_function("observation")(len(states[0]), *arguments)
         self._copy_back(result, W)
 
+    def fill_windup(
+        self,
+        motion: Sequence[np.ndarray],
+        step: float,
+        beta: np.ndarray,
+        elastic: np.ndarray,
+        s: np.ndarray,
+    ) -> None:
+        """Fills s (n, signals) with those of elastic joints along a motion at even steps, s.
+
+        Args:
+            motion: (n, joints) q, qd, qdd.
+            step: between samples.
+            beta: base parameters.
+            elastic: stiffnesses, then dampings.
+            s: is filled.
+        """
+        *arrays, beta, elastic = self._prepare_inputs([*motion, beta, elastic])
+        result, numbers = self._prepare_output(s), self._cast_numbers
+        arguments = [step, numbers(beta), numbers(elastic), numbers(result)]
+        self._get_function("windup")(len(s), *map(numbers, arrays), *arguments)
+        self._copy_back(result, s)
+
     def fill_base_parameters(
         self, function: FunctionSpec, chi: np.ndarray, beta: np.ndarray
     ) -> None:
@@ -243,6 +266,10 @@ def _write_declarations(spec: ModuleSpec) -> str:
         lines.append(
             f"void {spec.prefix}_observation(size_t, {states}, double *{status_argument});"
         )
+        if spec.windups:
+            motion = ", ".join(["const double *"] * 3)
+            arguments = "double, const double *, const double *, double *"
+            lines.append(f"void {spec.prefix}_windup(size_t, {motion}, {arguments});")
     if loops:
         lines.append(f"extern const char {spec.prefix}_loops[];")
         names = (f"{spec.prefix}_posed", f"{spec.prefix}_tree_next", "modeler_eliminated")

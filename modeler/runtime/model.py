@@ -1,6 +1,7 @@
 """The compiled model of a robot: dynamics over arrays of samples."""
 
 from collections.abc import Callable, Mapping
+from copy import copy
 from pathlib import Path
 from typing import Any, Literal
 
@@ -61,6 +62,7 @@ class CompiledModel(BatchEvaluator, Result):
     Attributes:
         spec: the manifest.
         log: the [log] of the robot file: which columns of its logs are which.
+        windup_values: beta and elastic of `set_windup`; None: joints are rigid along logs.
     """
 
     def __init__(
@@ -76,10 +78,11 @@ class CompiledModel(BatchEvaluator, Result):
         self._library = library
         self._functions = _FunctionTable(spec)
         self._joints = len(spec.joints)
+        self.windup_values: tuple[Any, Any] | None = None
 
     def __reduce__(self) -> tuple[Callable[..., "CompiledModel"], tuple[Any, ...]]:
         """Pickled as its C: where it lands it is compiled, or taken from the cache there."""
-        return load_module, (self.spec, dict(self._tile_files), self.log)
+        return load_module, (self.spec, dict(self._tile_files), self.log, self.windup_values)
 
     def base_regressor(self, q: Any, qd: Any, qdd: Any, s: Any = None) -> np.ndarray:
         """Returns Phi of the base parameters, (n, joints, c): tau = phi beta.
@@ -222,7 +225,15 @@ class CompiledModel(BatchEvaluator, Result):
         return beta
 
     def advance(
-        self, dq: Any, dt: float, s: Any, q: Any = None, qd: Any = None, qdd: Any = None
+        self,
+        dq: Any,
+        dt: float,
+        s: Any,
+        q: Any = None,
+        qd: Any = None,
+        qdd: Any = None,
+        beta: Any = None,
+        elastic: Any = None,
     ) -> np.ndarray:
         """Returns the signals of effects one sample later, as s: time and inner states.
 
@@ -232,18 +243,65 @@ class CompiledModel(BatchEvaluator, Result):
             dq: (joints,) or (n, joints) travel since the last sample.
             dt: s since then.
             s: (m,) or (n, m) signals then.
-            q: (joints,) or (n, joints) positions now; lags follow the motion.
+            q: (joints,) or (n, joints) positions now; lags and elastic joints follow the motion.
             qd: the same of velocities.
             qdd: the same of accelerations.
+            beta: (c,) base parameters, which elastic joints need.
+            elastic: stiffnesses, then dampings; None: of the robot file.
         """
         if "advance" not in self._functions:
             raise ManifestError(f"{self.spec.robot} has no effects that read signals")
+        elastic = self.spec.elastic if elastic is None else elastic
         arguments = {"dq": dq, "dt": [dt], "s": s, "q": q, "qd": qd, "qdd": qdd}
+        arguments |= {"beta": beta, "elastic": elastic}
         wanted = [argument.name for argument in self._functions["advance"].inputs]
         if missing := [name for name in wanted if arguments[name] is None]:
-            raise ShapeError(f"{self.spec.robot}: its effects have lags; give {', '.join(missing)}")
+            why = "elastic joints" if self.spec.windups else "lags"
+            raise ShapeError(
+                f"{self.spec.robot}: its effects have {why}; give {', '.join(missing)}"
+            )
         after = self.evaluate("advance", **{name: arguments[name] for name in wanted})
         return after if np.ndim(s) == 2 else after[0]
+
+    def compute_windup(
+        self, q: Any, qd: Any, qdd: Any, step: float, beta: Any, elastic: Any = None
+    ) -> np.ndarray:
+        """Returns (n, m) signals s of elastic joints along a motion of the motors; others are 0.
+
+        It starts where e holds the links along the motion, without speed of its own. NaN from where
+        something is not finite.
+
+        Args:
+            q: (n, joints) positions of the motors, at even steps.
+            qd: their velocities.
+            qdd: their accelerations.
+            step: s between samples.
+            beta: (c,) base parameters.
+            elastic: (2 E,) stiffnesses of the E elastic joints, then dampings; None: those of the
+                robot file.
+        """
+        motion = [*self._check_states({"q": q, "qd": qd, "qdd": qdd}).values()]
+        elastic = self.spec.elastic if elastic is None else elastic
+        sizes = check_vector(elastic, "elastic", 2 * len(self.spec.windups))
+        parameters = check_vector(beta, "beta", len(self.spec.base))
+        s = np.zeros((len(motion[0]), len(self.spec.signals)))
+        self._library.fill_windup(motion, step, parameters, sizes, s)
+        return s
+
+    def set_windup(self, beta: Any, elastic: Any = None) -> "CompiledModel":
+        """Returns the model whose elastic joints wind up with these values, along any log.
+
+        Without them, or without elastic joints, nothing winds up.
+
+        Args:
+            beta: (c,) base parameters.
+            elastic: as of `compute_windup`.
+        """
+        if not self.spec.windups:
+            return self
+        model = copy(self)
+        model.windup_values = beta, self.spec.elastic if elastic is None else elastic
+        return model
 
     def evaluate(self, role: str, **arrays: Any) -> np.ndarray:
         """Returns what an emitted function gives, (n, ...) by its output's shape.
@@ -344,7 +402,10 @@ class CompiledModel(BatchEvaluator, Result):
 
 
 def load_module(
-    spec: ModuleSpec, files: Mapping[str, str], log: Mapping[str, object] | None = None
+    spec: ModuleSpec,
+    files: Mapping[str, str],
+    log: Mapping[str, object] | None = None,
+    windup_values: tuple[Any, Any] | None = None,
 ) -> CompiledModel:
     """Returns the compiled model of an emitted module; compiled once, then taken from the cache.
 
@@ -353,6 +414,7 @@ def load_module(
         files: {file name: text} with at least `spec.sources`; `spec.tile_sources` are compiled when
             they are first needed, others are not looked at.
         log: the [log] of the robot file.
+        windup_values: of the model.
 
     Raises:
         ManifestError: a file is missing, a name of the manifest is no C name, or the code belongs
@@ -365,7 +427,9 @@ def load_module(
         lacking = ", ".join(missing)
         raise ManifestError(f"{spec.robot}: the module lacks {lacking}; generate it again")
     path = build_library({name: files[name] for name in spec.sources})
-    return CompiledModel(spec, Library(spec, path), log, files)
+    model = CompiledModel(spec, Library(spec, path), log, files)
+    model.windup_values = windup_values
+    return model
 
 
 def load_folder(folder: Path | str) -> CompiledModel:
