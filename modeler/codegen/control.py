@@ -218,8 +218,18 @@ def build_efforts(model: SymbolicModel, beta: Mapping[int, Expr]) -> Efforts:
 def build_forward_functions(
     model: SymbolicModel, beta: Mapping[int, Expr], arguments: Arguments
 ) -> tuple[CFunction, ...]:
-    """Returns forward dynamics, its derivatives, inertia of the tool; internal functions first."""
+    """Returns forward dynamics, its derivatives, inertia of the tool; internal functions first.
+
+    A robot with elastic joints has the last alone.
+    """
     n, arguments = model.geometry.coordinate_count, arguments.extend("control")
+    tool = {"matrix": "inertia_matrix", "J": "jacobian"}
+    tools = [
+        arguments.declare(role, composed=Composed(role, tool))
+        for role in ("operational_inertia", "operational_inverse")
+    ]
+    if model.windups:  # accelerations follow from the windup too, which moves by itself
+        return tuple(tools)
     efforts = build_efforts(model, beta)
     correction, pivots = solve_linear(
         efforts.matrix, [-r + model.graph.symbol(f"tau[{j}]") for j, r in enumerate(efforts.bias)]
@@ -232,14 +242,13 @@ def build_forward_functions(
     if efforts.is_implicit:
         matrix, numbers = "effort_slopes", [x for row in efforts.matrix for x in row]
         functions.append(arguments.declare(matrix, numbers, internal=True))
-    step, tool = {"step": "forward_step"}, {"matrix": "inertia_matrix", "J": "jacobian"}
+    step = {"step": "forward_step"}
     slopes = {"dynamics": "forward_dynamics", "slopes": "derivatives", "matrix": matrix}
     calls = {"forward_dynamics": step, "forward_derivatives": step | slopes}
-    calls |= {"operational_inertia": tool, "operational_inverse": tool}
     turns = TURNS if efforts.is_implicit else 1
     for role, parts in calls.items():
         functions.append(arguments.declare(role, composed=Composed(role, parts, turns)))
-    return tuple(functions)
+    return (*functions, *tools)
 
 
 # Functions that take the widths of dry friction while they run, beside the parameters.
@@ -504,9 +513,9 @@ def build_control_functions(
     arguments = layout.make_arguments(model.robot.free_joints, model, base).extend("control")
     beta = layout.make_beta_symbols(model, base)
     functions = (
-        *_build_dynamics(model, beta, arguments),
-        *_build_regressors(model, base, arguments),
-        *_build_frames(model, control, arguments),
+        *_build_dynamics(model.rigid, beta, arguments),
+        *_build_regressors(model.rigid, base, arguments),
+        *_build_frames(model.rigid, control, arguments),
     )
     if model.closure is not None:
         return build_closed_control_functions(model, base, functions)
@@ -535,7 +544,7 @@ def build_fitted_control_functions(
     arguments = layout.make_arguments(model.robot.free_joints, model, base).extend("control")
     values = fitted_constants(model, base, fitted)
     functions = (
-        *_build_dynamics(model, values, arguments),
+        *_build_dynamics(model.rigid, values, arguments),
         arguments.declare("derivatives", _differentiate_torques(model, values)),
         *build_forward_functions(model, values, arguments),
     )

@@ -373,6 +373,10 @@ def select_examples(spec: ModuleSpec) -> tuple[str, ...]:
     return tuple(name for name in examples if name != "example_cartesian" or not spec.signals)
 
 
+LOOPS = 6
+"""Inputs of a function, at most, of which the runtime has a loop over samples."""
+
+
 def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     """Returns what the template of the program that counts instructions needs besides.
 
@@ -380,7 +384,7 @@ def count_values(spec: ModuleSpec) -> dict[str, Any] | None:
     """
     if spec.closure is not None:
         return None
-    functions = [f for f in spec.every_function if not f.status]
+    functions = [f for f in spec.every_function if not f.status and len(f.inputs) <= LOOPS]
     if not functions:
         return None
     return {
