@@ -309,7 +309,8 @@ def compile(model: IdentifiedModel) -> CompiledModel:
     """
     otherwise = ", or use --run-embedded-c to run the C in the file if you trust its source"
     emitted = emit_model(model, otherwise)[1]
-    return compile_model(dataclasses.replace(emitted, log=model.mapping or emitted.log))
+    emitted = dataclasses.replace(emitted, log=model.mapping or emitted.log)
+    return compile_model(emitted).set_windup(model.beta)
 
 
 def emit_model(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, EmittedModule]:

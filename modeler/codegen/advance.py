@@ -53,11 +53,12 @@ def build_advance_functions(
     for signal in model.signals:
         after[signal] = moved.get(signal) or _advance_signal(model, signal, after)
     values = list(after.values())
-    travels = any(s.kind in ("slip", "direction") for s in model.signals)
-    words = {"motion": "q qd qdd" if any(s.follows for s in model.signals) else "", "dq": "dq"}
+    motion = "q qd qdd" if any(s.follows for s in model.signals) else ""
+    words = {"first": "", "dq": "dq", "motion": motion}
     if not model.windups:
         return [arguments.declare("advance", values, words)]
-    words = {"motion": "q qd qdd beta elastic", "dq": "dq" * travels}
+    travels = any(s.kind in ("slip", "direction") for s in model.signals)
+    words = {"first": "q qd qdd", "dq": "dq" * travels, "motion": "beta elastic"}
     reset = _rest_windups(model, beta, elastic)
     rest = [reset.get(signal, model.graph.constant(0)) for signal in model.signals]
     functions = []

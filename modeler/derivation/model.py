@@ -133,9 +133,8 @@ def build_link_column(prefix: str, row: int, joint: Joint) -> LinkColumn:
 
 def _build_effect_columns(geometry: Geometry, row: int, joint: Joint) -> list[ShaftColumn]:
     effect_columns = []
-    effects = geometry.robot.find_joint_effects(joint.name)
-    is_elastic = any(form.is_windup for _, form, _ in effects)
-    for effect, form, instance in effects:
+    is_elastic = geometry.robot.find_windup(joint.name) is not None
+    for effect, form, instance in geometry.robot.find_joint_effects(joint.name):
         for column in form.columns:
             effect_columns.append(
                 ShaftColumn(
@@ -249,13 +248,10 @@ def find_windups(geometry: Geometry) -> dict[int, tuple[Signal, ...]]:
     """
     windups = {}
     for row, joint in enumerate(geometry.robot.joints):
-        index = geometry.rows[row].index
-        for _, form, instance in geometry.robot.find_joint_effects(joint.name):
-            if form.is_windup and form.internal_state is not None and index is not None:
-                state, values = form.internal_state, instance.nonlinear_parameters
-                sizes = (values[state.parameter], values[state.damping], 0.0)
-                (k,) = geometry.forms[index]  # of a joint that turns with no other
-                windups[k] = tuple(map(Signal, WINDUP, [row] * 3, sizes))
+        index, sizes = geometry.rows[row].index, geometry.robot.find_windup(joint.name)
+        if sizes is not None and index is not None:
+            (k,) = geometry.forms[index]  # of a joint that turns with no other
+            windups[k] = tuple(map(Signal, WINDUP, [row] * 3, (*sizes, 0.0)))
     return windups
 
 

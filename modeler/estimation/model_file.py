@@ -218,7 +218,7 @@ class IdentifiedModel(Result, Document):
         return [] if self.fit.verdict is None else self.fit.verdict.format_warning()
 
     def compile(self) -> CompiledModel:
-        """Returns the compiled robot.
+        """Returns the compiled robot; its elastic joints wind up with the values of the fit.
 
         Raises:
             BuildError: no C compiler, or it refused the sources.
@@ -228,7 +228,7 @@ class IdentifiedModel(Result, Document):
         except ValueError:
             table = {}
         mapping = self.mapping or (table if isinstance(table, Mapping) else {})
-        return load_module(self.spec, self.sources, mapping)
+        return load_module(self.spec, self.sources, mapping).set_windup(self.beta)
 
 
 def collect_provenance(report: DataReport) -> tuple[LogProvenance, ...]:

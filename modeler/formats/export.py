@@ -325,6 +325,11 @@ def _build_mjcf(physics: ExportParameters, parts: list[Part], names: Names) -> E
         more |= {"ref": part.zero} if part.zero else {}
         kind = "slide" if part.row.kind is JointKind.PRISMATIC else "hinge"
         body.append(_build_node("joint", name=part.joint, type=kind, axis=part.axis, **more))
+        if windup := robot.find_windup(part.row.name):  # less the windup: the link behind the motor
+            K, D = windup
+            about: dict[str, Number] = {"axis": part.axis, "stiffness": K, "damping": D}
+            name = f"{part.joint}_windup"
+            body.append(_build_node("joint", name=name, type=kind, **about))
         for capsule in part.capsules:
             shape: dict[str, str | Number] = {"type": "sphere", "size": capsule.radius}
             if capsule.start.any():
@@ -488,7 +493,7 @@ def export_robot(
         notes = list(placement.notes)
         data, values = rewrite_file(physics, source, placement, notes)
     notes = [*physics.notes, *notes, *_find_too_small(values, to)]
-    lost = find_lost_effects(physics, to, torques)
+    lost = find_lost_effects(physics, to, torques, has_elastic=to == "mjcf" and like is None)
     name = "" if like is None else like.name
     moved = physics.completion.shift_in_sigmas
     exported = Exported(robot.name, to, name, data, tuple(values), lost, moved, tuple(notes))

@@ -58,7 +58,7 @@ class LostEffect(ShortRepr):
 
 
 def find_lost_effects(
-    physics: ExportParameters, to: str, torques: Torques | None = None
+    physics: ExportParameters, to: str, torques: Torques | None = None, has_elastic: bool = False
 ) -> tuple[LostEffect, ...]:
     """Lists the effects that the format cannot hold, by share of torque.
 
@@ -68,6 +68,7 @@ def find_lost_effects(
         physics: all numbers.
         to: the format.
         torques: of the logs of the fit, if they are there.
+        has_elastic: the file has a second joint behind the motor of each elastic one.
     """
     robot, lost_effects = physics.robot, list[LostEffect]()
     g = float(np.linalg.norm(compute_gravity(robot)))
@@ -77,6 +78,9 @@ def find_lost_effects(
     stated_names = {name for terms in joint_terms for each in terms.values() for name in each}
     for joint in robot.moving_joints:
         for effect, form, instance in robot.find_joint_effects(joint.name):
+            if form.is_windup and not has_elastic:
+                sizes = dict(instance.nonlinear_parameters)
+                lost_effects.append(LostEffect(effect.id, joint.name, sizes))
             names = [f"{column.prefix}{joint.name}{instance.label}" for column in form.columns]
             values = {
                 n: float(physics.completion.chi[physics.indices[n]])

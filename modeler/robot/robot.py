@@ -389,6 +389,14 @@ class Robot(Result):
                     joint_effects.append((effect, effect.forms[instance.form], instance))
         return joint_effects
 
+    def find_windup(self, joint: str) -> tuple[float, float] | None:
+        """Returns stiffness and damping of an elastic joint; None of another."""
+        for _, form, instance in self.find_joint_effects(joint):
+            if form.is_windup and form.internal_state is not None:
+                values, state = instance.nonlinear_parameters, form.internal_state
+                return values[state.parameter], values[state.damping]
+        return None
+
     def has_effect(self, effect: str, joint: str) -> bool:
         """Returns True if that joint carries that effect."""
         return any(use.effect == effect and joint in use.joints for use in self.effects)

@@ -317,7 +317,7 @@ class CompiledModel(BatchEvaluator, Result):
             SolutionError: the same of a robot without loops.
         """
         out, status, inputs = self._call_function(role, arrays)
-        self._check_status(status, inputs[0], "" if self._has_loops else role)
+        self._check_status(status, np.atleast_2d(inputs[0]), "" if self._has_loops else role)
         return out
 
     def evaluate_status(self, role: str, **arrays: Any) -> np.ndarray:
@@ -386,7 +386,7 @@ class CompiledModel(BatchEvaluator, Result):
         if status is None or not np.any(status):
             return
         first = int(np.flatnonzero(status)[0])
-        where = ", ".join(f"{value:.6g}" for value in inputs[first])
+        where = ", ".join(f"{value:.6g}" for value in inputs[min(first, len(inputs) - 1)])
         more = int(np.count_nonzero(status)) - 1
         also = f" (and {more} more)" if more else ""
         at, code = f"{self.spec.robot}: sample {first + 1}{also}", int(status[first])

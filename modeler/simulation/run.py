@@ -1,5 +1,6 @@
 """The simulated measurement: plant, controller and sensors in closed loop, or the exact command."""
 
+import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -296,6 +297,11 @@ def simulate(
     settings = settings or SimulationSettings()
     log.check_settings(settings, tuple(joint.name for joint in robot.coordinates))
     all_limits = trajectory.collect_motion_limits(robot, settings.limits)
+    elastic = collect_elastic_joints(robot)
+    if elastic:  # two masses each, as where the robot file does not say so
+        rigid = [use for use in robot.effects if use.effect != elastic[0].effect]
+        robot = dataclasses.replace(robot, effects=tuple(rigid))
+        settings = dataclasses.replace(settings, hidden=(*elastic, *settings.hidden))
     if robot.loops and not settings.controller:
         return _simulate_exact_command(robot, all_limits, settings, progress)
     parameters = draw_plant_parameters(robot, all_limits, settings.parameter_seed)
@@ -317,8 +323,19 @@ def simulate(
     samples = [each.T for each in (q, qd, z, tau + random)]
     qdd = plant.acceleration.map(len(q))(*samples)[0].full().T.copy()
     logged = compute_logged_torques(faults, reference.time, tau)
+    hidden = hidden[len(elastic) :]
     truth = Truth(q, qd, qdd, tau, *merge_shared_names(robot, parameters), hidden)
     return _build_log(robot, settings, task, truth, measured, logged, _read_thermometers(plant, z))
+
+
+def collect_elastic_joints(robot: Robot) -> tuple[HiddenEffect, ...]:
+    """Returns the elastic joints of the robot file as transmissions of the simulator."""
+    joints = [(joint.name, robot.find_windup(joint.name)) for joint in robot.moving_joints]
+    return tuple(
+        HiddenEffect("elasticity", name, {"stiffness": sizes[0], "damping": sizes[1]})
+        for name, sizes in joints
+        if sizes is not None
+    )
 
 
 def _simulate_exact_command(
