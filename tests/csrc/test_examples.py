@@ -106,6 +106,7 @@ def test_the_controller_carries_what_friction_remembers(tmp_path):
     for name, effects in (("forgets", usual), ("remembers", {**usual, **bristles})):
         text = replace_effects(read_builtin_robot("demo-arm"), effects)
         true = {**plant.standard, "Fs2": level, "Fz2": level}
+        true["Fzd2"] = bristle.values["damping"]
         true_folder(parse_robot_text(text, "demo-arm"), true, tmp_path / name)
         make(tmp_path / name, "examples")
         errors.append([rms(values)[1] for values in driven(tmp_path / name, plant, 0.0)])
