@@ -26,17 +26,18 @@ from modeler.diagnosis.added_model import (
     read_catalogue,
 )
 from modeler.diagnosis.diagnosis import find_fixed_parameters
+from modeler.diagnosis.events import detect_other_push, detect_push, mask_window
 from modeler.diagnosis.generation import estimate_instrumental
 from modeler.diagnosis.learn import ANY_LAW, LawRequest, LearnedLaw, learn_law
 from modeler.diagnosis.messages import format_location
 from modeler.diagnosis.plausibility import compute_gain_visibility, find_caveat, is_gain
 from modeler.diagnosis.profile import name_parameters
 from modeler.diagnosis.search import extend_state, scan_candidates, scan_catalogue
-from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state
+from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state, observe_in_band
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, EffectTarget, find_effect
 from modeler.estimation import Addition, IdentifiedModel, collect_provenance, identify, judge_fit
-from modeler.regression import Observation
+from modeler.regression import Log, Observation
 from modeler.robot import join_names, parse_robot_text, suggest_name
 from modeler.runtime import CompiledModel, load_module
 
@@ -175,6 +176,8 @@ def add_effect(
     """
     effect = resolve_effect(model, name, joint)
     before = _FittedModel(model, build_rows(compiled, logs, model.processing))
+    if effect.acts is EffectTarget.WINDOW:
+        return _leave_out_pushes(before, effect)[0].complete_step()
     pick = _select_candidate(before, effect, joint)
     after, score = _score_addition(before, pick)
     moved = _compute_parameter_shifts(model, after.model) if effect.is_learned else {}
@@ -292,11 +295,13 @@ def add_findings(
     left = [_describe_omission(f.effect, f.joint, f"weak evidence: {f.warning}") for f in doubted]
     best = _FittedModel(model, build_rows(compiled, logs, model.processing))
     best, rest = _add_drive_gains(best, [f for f in findings if not f.warning])
-    for finding in rest:
+    for finding in sorted(rest, key=lambda one: not one.is_event):  # all others are found beside it
         try:
-            resolve_effect(best.model, finding.effect, finding.joint)
-            assert finding.pick is not None  # `resolve_effect` refuses what is no column
-            after, score = _score_addition(best, finding.pick)
+            effect = resolve_effect(best.model, finding.effect, finding.joint)
+            if finding.pick is None:  # `resolve_effect` refuses what is neither column nor event
+                after, score = _leave_out_pushes(best, effect)
+            else:
+                after, score = _score_addition(best, finding.pick)
         except (DataError, RobotError) as error:
             left.append(_describe_omission(finding.effect, finding.joint, error))
             continue
@@ -347,7 +352,7 @@ def remove_last_effect(model: IdentifiedModel, logs: LogSplit) -> IdentifiedMode
     if len(model.history) < 2:
         raise DataError("undo: no effect was added to this model; name one to add")
     before, training = model.history[-2], LogSplit(logs.training)
-    processing = replace(model.processing, delay=before.delay)
+    processing = replace(model.processing, delay=before.delay, pushes=before.pushes)
     build = partial(build_rows, logs=training, processing=processing)
     fitted = _fit_robot_file(model, before.robot_text, build)
     return _complete_model(fitted.replace_history(model.history[:-1]))
@@ -408,12 +413,62 @@ def _score_addition(
     score = scoring.score_change(first, last)
     if not score.joints:
         raise DataError("no joint has a torque in these logs; expected logs of a robot that moves")
+    shapes = dict(pick.candidate.nonlinear_parameters)
+    notes = {"joint": pick.candidate.joint, "nonlinear_parameters": shapes}
+    return _append_step(before, after, score, effect=effect.id, **notes), score
+
+
+def _append_step(
+    before: _FittedModel, after: _FittedModel, score: scoring.Score, **notes: Any
+) -> _FittedModel:
+    """The model after a change, with that as a step of its history."""
     history = before.model.history or (_build_history_step(before, score, 0),)
-    step, shapes = _build_history_step(after, score, 1), dict(pick.candidate.nonlinear_parameters)
-    step = replace(step, effect=effect.id, joint=pick.candidate.joint, nonlinear_parameters=shapes)
-    changed, falls = score.changed_joints, score.is_better
-    step = replace(step, joints=score.errors, changed_joints=changed, is_improvement=falls)
-    return after.replace_history((*history, step)), score
+    step, changed = _build_history_step(after, score, 1), score.changed_joints
+    step = replace(step, joints=score.errors, changed_joints=changed, **notes)
+    step = replace(step, is_improvement=score.is_better)
+    return after.replace_history((*history, step))
+
+
+def _leave_out_pushes(before: _FittedModel, effect: Effect) -> tuple[_FittedModel, scoring.Score]:
+    """The model fitted without the windows in which something pushed, and whether it is better.
+
+    Both are judged on the rows that are left; held-out logs have windows of their own.
+    """
+    state, model, logs = _build_state(before), before.model, before.rows.logs
+    window, windows = detect_push(state, state.data), list[tuple[Log, str, result.PushWindow]]()
+    if window is not None and window.change is not None:
+        windows.append((logs.training[window.log], "the fit", window))
+        state = build_state(mask_window(state.data, window), (), state.beta)
+    if logs.held_out:
+        used = state.data.observation.report.processing
+        seen = observe_in_band(before.rows.compiled, logs.held_out, used)
+        window = detect_other_push(state, replace(state.data, observation=seen))
+        if window is not None:
+            windows.append((logs.held_out[window.log], "judging", window))
+    if not windows:
+        raise DataError(
+            f"{effect.id}: no torque acts once in these logs and stands out from what the model "
+            "leaves elsewhere; nothing is left out"
+        )
+    processing, left_out = model.processing, list[str]()
+    for log, what, window in windows:
+        processing = processing.add_push(log, *window.span)
+        left_out.append(_describe_window(log, what, *window.span))
+    build = partial(build_rows, logs=logs, processing=processing)
+    after = _fit_robot_file(model, model.robot_text, build)
+    rest = replace(before, rows=after.rows)
+    first, last = rest.compute_held_out_residuals(False), after.compute_held_out_residuals(True)
+    score = scoring.score_change(first, last)
+    notes = {"effect": effect.id, "left_out": tuple(left_out)}
+    return _append_step(before, after, score, **notes), score
+
+
+def _describe_window(log: Log, what: str, start: float, end: float) -> str:
+    first, last = np.searchsorted(log.time, [start, end])
+    return (
+        f"{log.name}: {start:.2f} to {end:.2f} s, rows {first + 1} to {last} of {log.rows}, are "
+        f"left out of {what}: something pushed on the robot"
+    )
 
 
 def _build_history_step(fitted: _FittedModel, score: scoring.Score, side: int) -> Addition:
@@ -427,7 +482,8 @@ def _build_history_step(fitted: _FittedModel, score: scoring.Score, side: int) -
     joints = {name: (error, error) for name, error in errors.items()}
     shapes = dict[str, float]()
     start = "", None, shapes, error, scoring.compute_rms_error(fit_errors), held_out
-    return Addition(*start, model.robot_text, model.processing.delay, joints=joints)
+    used = model.processing
+    return Addition(*start, model.robot_text, used.delay, joints=joints, pushes=used.pushes)
 
 
 def _fit_with_candidate(before: _FittedModel, pick: result.FittedCandidate) -> _FittedModel:

@@ -332,7 +332,7 @@ def describe_additions(model: IdentifiedModel, since: int = -1) -> list[str]:
                 f"{name}: the logs have no column temperature{step.joint} or temperature, so the "
                 "time since their start stands for it; log it to know more"
             )
-        lines.append(_describe_error_change(name, step))
+        lines += [*step.left_out, _describe_error_change(name, step)]
     return lines
 
 

@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 from modeler.core.errors import DataError
 from modeler.diagnosis import findings
 from modeler.diagnosis.candidates import StatedEffects, thin_samples
-from modeler.diagnosis.events import compute_burst_ratio, find_contact_window, fit_push_torque
+from modeler.diagnosis.events import detect_other_push, detect_push, mask_window
 from modeler.diagnosis.generation import estimate_logger_shift, generate_candidates
 from modeler.diagnosis.messages import exclude_friction, find_faults
 from modeler.diagnosis.plausibility import find_gravity_confounders
@@ -30,7 +30,14 @@ from modeler.diagnosis.state import (
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, EffectTarget, Requirement, find_effect
 from modeler.estimation import IdentifiedModel, compute_relative_errors
-from modeler.regression import Log, LogRepair, Observation, build_observation, prepare_logs
+from modeler.regression import (
+    DataWarning,
+    Log,
+    LogRepair,
+    Observation,
+    build_observation,
+    prepare_logs,
+)
 
 if TYPE_CHECKING:
     from modeler.runtime import CompiledModel
@@ -129,6 +136,8 @@ def diagnose(
         made: list[findings.BandSearch] = []
         far = beyond if beyond is not None and get_cutoff(beyond) > get_cutoff(data) else None
         far_held_out = None if far is None else _prepare_holdout(far, holdout)
+        if far_held_out is not None and held_push is not None:
+            far_held_out = mask_window(far_held_out, held_push)
         for band_data, held in ((data, other), (far, far_held_out)):
             if band_data is None:
                 continue
@@ -145,6 +154,7 @@ def diagnose(
             made.append(findings.evaluate_search(search, held, checks, stages.advance))
         return made
 
+    held_push: PushWindow | None = None
     bands = search_bands()
     aligned = _align_logger_delay(data, bands[0].search, model, repair)
     if aligned is not None:
@@ -153,10 +163,21 @@ def diagnose(
         bands = search_bands()
     pushes = [e for e in data.stated_effects.catalogue if e.acts is EffectTarget.WINDOW]
     may_push = [effect for effect in pushes if effect.id not in without]
-    window = _detect_push(bands[-1].search) if may_push else None
+    last, window = bands[-1].search, None
+    if may_push and last.last.ranked:
+        window = detect_push(last.end, last.start.data)
     if window is not None:
-        data = _mask_window(data, window)
-        beyond = None if beyond is None else _mask_window(beyond, window)
+        data = mask_window(data, window)
+        beyond = None if beyond is None else mask_window(beyond, window)
+    if may_push and other is not None:
+        held_push = detect_other_push(
+            build_state(data, bands[0].search.end.picks, model.beta), other
+        )
+    if held_push is not None and other is not None:
+        other, where = mask_window(other, held_push), held_push.describe(other.observation.logs)
+        faults += (DataWarning(f"held out: {where}; left out of the errors"),)
+        window = None if window is None else replace(window, held_out_push=where)
+    if window is not None or held_push is not None:
         bands = search_bands()
     stages.begin_stage(_NAMED if equations else 1.0)
     changes = tuple[ParameterChange, ...]()
@@ -269,30 +290,3 @@ def find_fixed_parameters(
     rows = zip(free.rows.y, free.rows.W, free.sigma, strict=True)
     fixed_cost = sum(float(np.sum(((y - w @ model.beta) / s) ** 2)) for y, w, s in rows)
     return model.beta if fixed_cost > THRESHOLDS.min_refit_variance_ratio * fitted else None
-
-
-def _detect_push(search: Search) -> PushWindow | None:
-    """When something pushed; with its first part left out of the fit, more of it may show."""
-    end, data = search.end, search.start.data
-    # a gear may have so much play that one of its impacts looks like a push
-    most, joints = THRESHOLDS.min_burst_ratio, range(end.rows.joint_count)
-    rattles = any(compute_burst_ratio(end, j) > most for j in joints)
-    window = more = None if rattles or not search.last.ranked else find_contact_window(end)
-    if window is None:
-        return None
-    while more is not None:
-        window = more
-        later = find_contact_window(build_state(_mask_window(data, window), end.picks, end.beta))
-        more = window.merge_part(later) if later is not None else None
-    masked = build_state(_mask_window(data, window), end.picks, end.beta)
-    return fit_push_torque(window, masked, data)
-
-
-def _mask_window(data: SearchData, window: PushWindow) -> SearchData:
-    """The data without the rows of a window, and a little around it."""
-    observation = data.observation
-    first = window.start - THRESHOLDS.push_margin
-    hit = (observation.run == window.log) & (observation.time > first)
-    hit &= observation.time < window.end + THRESHOLDS.push_margin
-    rest = observation.select_rows(observation.used & ~hit[:, None])
-    return replace(data, observation=rest)

@@ -10,9 +10,15 @@ from modeler.core.table import format_error_pair, format_percent
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.generation import compute_burst_share, is_ruled_out
 from modeler.diagnosis.result import Finding, PushWindow
-from modeler.diagnosis.scoring import Score, ScoredCandidate, compare_residuals, compute_residuals
+from modeler.diagnosis.scoring import (
+    Residuals,
+    Score,
+    ScoredCandidate,
+    compare_residuals,
+    compute_residuals,
+)
 from modeler.diagnosis.search import Search
-from modeler.diagnosis.state import SearchData, State
+from modeler.diagnosis.state import SearchData, State, build_state
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, EffectTarget
 
@@ -35,14 +41,59 @@ class _WindowEnergies:
     energy: np.ndarray
 
 
-def find_contact_window(state: State) -> PushWindow | None:
-    """Finds the window in which a steady torque stands out; None if none does.
+def detect_push(end: State, data: SearchData) -> PushWindow | None:
+    """Detects when something pushed; with its first part left out of the fit, more of it may show.
+
+    Args:
+        end: fitted to the logs.
+        data: they.
+    """
+    # a gear may have so much play that one of its impacts looks like a push
+    most, joints = THRESHOLDS.min_burst_ratio, range(end.rows.joint_count)
+    rattles = any(compute_burst_ratio(end, j) > most for j in joints)
+    if rattles:
+        return None
+    return _find_whole_push(end, data, lambda rest: build_state(rest, end.picks, end.beta))
+
+
+def detect_other_push(state: State, other: SearchData) -> PushWindow | None:
+    """Detects when something pushed in logs that a state was not fitted to.
+
+    None also of what comes only once, but is no steady torque.
+    """
+    window = _find_whole_push(state, other, lambda rest: state)
+    return window if window is not None and window.change is not None else None
+
+
+def _find_whole_push(
+    state: State, data: SearchData, refit: Callable[[SearchData], State]
+) -> PushWindow | None:
+    window = more = find_contact_window(compute_residuals(state, data))
+    if window is None:
+        return None
+    while more is not None:
+        window, rest = more, mask_window(data, more)
+        state = refit(rest)
+        later = find_contact_window(compute_residuals(state, rest))
+        more = window.merge_part(later) if later is not None else None
+    return fit_push_torque(window, state, data)
+
+
+def mask_window(data: SearchData, window: PushWindow) -> SearchData:
+    """Returns the data without the rows of a window, and a little around it."""
+    observation, (start, end) = data.observation, window.span
+    hit = (observation.run == window.log) & (observation.time > start) & (observation.time < end)
+    return replace(data, observation=observation.select_rows(observation.used & ~hit[:, None]))
+
+
+def find_contact_window(left: Residuals) -> PushWindow | None:
+    """Finds the window in which a steady torque stands out in residuals; None if none does.
 
     A push gives joint j a mean residual m_j over the n_j rows of its window, of energy
     sum_j n_j m_j^2 / s_j^2 (s_j the joint's median residual): largest over the very window of the
     push. What acts more than once, as friction or a wrong model do, is as large elsewhere.
     """
-    windows = _enumerate_windows(state)
+    windows = _enumerate_windows(left)
     if windows is None:
         return None
     top = int(np.argmax(windows.energy))
@@ -79,9 +130,9 @@ def _extend_window(
         loud = loud & ((windows.end <= start + gap) | (windows.start >= end - gap))
 
 
-def _enumerate_windows(state: State) -> _WindowEnergies | None:
+def _enumerate_windows(left: Residuals) -> _WindowEnergies | None:
     """The windows, from sums over cells of a tenth of a second; None where none fits."""
-    run, number, total, rows = _accumulate_cells(state)
+    run, number, total, rows = _accumulate_cells(left)
     parts = []
     for length in _LENGTHS:
         last = np.arange(length - 1, len(run))
@@ -97,20 +148,19 @@ def _enumerate_windows(state: State) -> _WindowEnergies | None:
     return windows if len(windows.run) else None
 
 
-def _accumulate_cells(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _accumulate_cells(left: Residuals) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Log and number of each cell (cells,); sums before it of residuals and rows (cells + 1, J)."""
-    rows = state.rows
     cell_keys = [
         np.column_stack([run, np.floor(time / THRESHOLDS.push_cell).astype(int)])
-        for run, time in zip(rows.run, rows.time, strict=True)
+        for run, time in zip(left.run, left.time, strict=True)
     ]
     cells, place = np.unique(np.concatenate(cell_keys), axis=0, return_inverse=True)
-    total, count = np.zeros((2, len(cells) + 1, rows.joint_count))
+    total, count = np.zeros((2, len(cells) + 1, len(left.names)))
     ends = np.cumsum([len(keys) for keys in cell_keys])[:-1]
     for j, at in enumerate(np.split(np.ravel(place), ends)):
-        size = float(np.median(np.abs(state.residual[j]))) if len(at) else 0.0
+        size = float(np.median(np.abs(left.residual[j]))) if len(at) else 0.0
         if size > 0.0:
-            total[1:, j] = np.bincount(at, state.residual[j] / size, len(cells))
+            total[1:, j] = np.bincount(at, left.residual[j] / size, len(cells))
             count[1:, j] = np.bincount(at, minlength=len(cells))
     return cells[:, 0], cells[:, 1], np.cumsum(total, axis=0), np.cumsum(count, axis=0)
 
@@ -266,6 +316,10 @@ def _detect_contact(
     units = {f"tau{j.name}": j.effort_unit for j in search.spec.joints}
     torque = {f"tau{name}": value for name, value in window.torque.items()}
     ends, doubt = (window.change.before, window.change.after), ""
+    if window.held_out_push:
+        doubt = (
+            f"{window.held_out_push}, in the held-out motion too: if its pose returns, it is a law"
+        )
     end, ratio = search.end, THRESHOLDS.min_recurrence_ratio
     for name, y, r in zip(end.joint_names, end.rows.y, end.residual, strict=True):
         least = ratio * np.linalg.norm(r) / max(float(np.linalg.norm(y)), 1e-300)

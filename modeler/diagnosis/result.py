@@ -106,6 +106,7 @@ class PushWindow:
         torque: its mean by joint, N m or N.
         change: of the error of all joints by it, over all rows of the logs; None for what comes
             only once as well, but is no steady torque: a spike, a shock.
+        held_out_push: when something pushed in the held-out logs too, in words; empty if never.
     """
 
     log: int
@@ -114,6 +115,18 @@ class PushWindow:
     ratio: float
     torque: Mapping[str, float] = field(default_factory=dict)
     change: ErrorChange | None = None
+    held_out_push: str = ""
+
+    def describe(self, logs: Sequence[str]) -> str:
+        """Describes when it pushed in one of those logs."""
+        seconds = f"{self.start:.1f} to {self.end:.1f} s of {logs[self.log]}"
+        energy = f"{self.ratio:.0f} times the energy of any other window"
+        return f"something pushed from {seconds} ({energy})"
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Returns start and end with a margin, s: the rows between them are left out."""
+        return self.start - THRESHOLDS.push_margin, self.end + THRESHOLDS.push_margin
 
     def merge_part(self, other: "PushWindow") -> "PushWindow | None":
         """Merges the push with a part of it; None if that is another push."""
@@ -579,6 +592,8 @@ class Diagnosis(Result, Document):
         has = {(p.effect, p.joint) for p in spec.standard}
 
         def can_add(finding: Finding) -> bool:
+            if finding.is_event:
+                return True
             if finding.pick is None or finding.pick.visible_share < least:
                 return False
             effect = finding.pick.candidate.effect

@@ -118,12 +118,14 @@ class Addition(Result, Document):
         warning: why a diagnosis would call it possible only; empty if it would call it likely.
         shifts_in_sigmas: by how much each parameter that was there moved, in its sigmas; of learned
             laws only.
+        pushes: as of the processing with it.
+        left_out: windows that it leaves out, a sentence each.
     """
 
     KEYS = """
         effect=effect_id joint error training_error nonlinear_parameters nonlinear_sigmas
         nonlinear_intervals held_out_logs joints=joint_changes changed_joints is_improvement warning
-        is_learned shifts_in_sigmas
+        is_learned shifts_in_sigmas left_out
     """
 
     effect: str
@@ -141,6 +143,8 @@ class Addition(Result, Document):
     is_improvement: bool = True
     warning: str = ""
     shifts_in_sigmas: Mapping[str, float] = field(default_factory=dict)
+    pushes: Mapping[str, tuple[tuple[float, float], ...]] | None = None
+    left_out: tuple[str, ...] = ()
 
     @property
     def is_learned(self) -> bool:

@@ -257,6 +257,7 @@ class RawSegment:
         commanded: (n, joints) positions, or None.
         induced: (joints,) as of the log.
         q_step, qd_step: (joints,) steps of resolution as logged; resampling hides them.
+        pushes: windows, s, in which something pushed on the robot.
     """
 
     run: int
@@ -276,6 +277,7 @@ class RawSegment:
     induced: tuple[float, ...] = ()
     q_step: tuple[float, ...] = ()
     qd_step: tuple[float, ...] = ()
+    pushes: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,7 +1,7 @@
 """Choices of the processing; velocities and accelerations of a piece, and its usable samples."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, get_args
@@ -13,7 +13,7 @@ from modeler.core.choices import LOW_SPEED, Derivatives
 from modeler.core.errors import DataError
 from modeler.core.json import ShortRepr
 from modeler.numerics.filters import apply_zero_phase_lowpass
-from modeler.regression.log import RawSegment, select_long_runs
+from modeler.regression.log import Log, RawSegment, select_long_runs
 from modeler.regression.thresholds import THRESHOLDS
 
 
@@ -47,6 +47,8 @@ class Processing(ShortRepr):
             `position_cutoff`, where the filter's start-up has faded below 1 %.
         automatic_cutoffs: names of the cut-offs that were chosen from the logs; what is given rules
             all that is made of a model.
+        pushes: windows, s, in which something pushed and that are left out, by the content of the
+            log, or by its name where it came from no file.
     """
 
     position_cutoff: float | None = None
@@ -62,6 +64,7 @@ class Processing(ShortRepr):
     delay: float = 0.0
     automatic_cutoffs: tuple[str, ...] = ()
     repairs: Mapping[str, float] | None = None
+    pushes: Mapping[str, tuple[tuple[float, float], ...]] | None = None
 
     def __post_init__(self) -> None:
         for name in ("position_cutoff", "parallel_cutoff", "edge", "low_speed"):
@@ -80,6 +83,8 @@ class Processing(ShortRepr):
             raise DataError(f"speed_floors is {self.speed_floors}; {expected}")
         if not isinstance(self.repairs, Mapping | None):
             raise DataError(f"repairs is {self.repairs}; expected a ratio by column and defect")
+        if not isinstance(self.pushes, Mapping | None):
+            raise DataError(f"pushes is {self.pushes}; expected windows, s, by log")
         if self.derivatives not in get_args(Derivatives):
             possible = ", ".join(get_args(Derivatives))
             raise DataError(f'derivatives is "{self.derivatives}"; expected {possible}')
@@ -91,6 +96,16 @@ class Processing(ShortRepr):
             for key, score in (self.repairs or {}).items()
             if key.startswith(f"{log}: ") or key.endswith(" held")
         }
+
+    def get_pushes(self, log: Log) -> tuple[tuple[float, float], ...]:
+        """Returns the windows of a log that are left out, s."""
+        return (self.pushes or {}).get(log.content or log.name, ())
+
+    def add_push(self, log: Log, start: float, end: float) -> "Processing":
+        """Returns the processing that leaves out one more window of a log, s."""
+        windows = (*self.get_pushes(log), (start, end))
+        pushes = {**(self.pushes or {}), log.content or log.name: windows}
+        return dataclasses.replace(self, pushes=pushes)
 
     def to_json(self) -> dict[str, Any]:
         """Returns the processing as plain data for a model file."""
@@ -137,6 +152,11 @@ def read_processing(raw: Mapping[str, Any]) -> Processing:
                 name: float("inf") if floor is None else float(floor)
                 for name, floor in values["speed_floors"].items()
             }
+        if values.get("pushes") is not None:
+            windows = values["pushes"].items()
+            values["pushes"] = {
+                log: tuple((float(a), float(b)) for a, b in w) for log, w in windows
+            }
         return Processing(**values) if open_ else ChosenProcessing(**values)
     except (TypeError, ValueError, AttributeError) as error:
         raise DataError(f"processing: {error}; expected numbers") from None
@@ -152,7 +172,8 @@ BRIDGES = "lie beside missing positions, as near as the position filter reaches"
 CONTRADICTED = "have impossible derivatives, or lie as near to them as the position filter reaches"
 SATURATED = "have a torque at its limit"
 OPEN = "have positions with which the loops cannot be closed"
-CAUSES = (EDGE, MISSING, BRIDGES, CONTRADICTED, SATURATED, OPEN)
+PUSHED = "lie in a window in which something pushed on the robot"
+CAUSES = (EDGE, MISSING, BRIDGES, CONTRADICTED, SATURATED, OPEN, PUSHED)
 """In this order; the first that applies counts."""
 
 
@@ -283,11 +304,18 @@ def _classify_samples(
         BRIDGES: dilate_flags(bent, edge)[:, None],
         CONTRADICTED: dilate_flags(piece.contradicted, edge)[:, None],
         SATURATED: piece.clipped & (not keep_saturated),
+        PUSHED: find_samples_within(piece.time, piece.pushes)[:, None],
     }
     cause = np.full(piece.valid.shape, -1, dtype=np.int8)
     for name, flagged in flags.items():
         cause[(cause < 0) & flagged] = CAUSES.index(name)
     return cause
+
+
+def find_samples_within(time: np.ndarray, windows: Sequence[tuple[float, float]]) -> np.ndarray:
+    """Returns (n,) True of the times (n,), s, that lie in one of the windows, s."""
+    inside = [(time > start) & (time < end) for start, end in windows]
+    return np.any([np.zeros(len(time), dtype=bool), *inside], axis=0)
 
 
 def dilate_flags(flags: np.ndarray, reach: int) -> np.ndarray:

@@ -21,6 +21,7 @@ from modeler.regression.motion import (
     EDGE,
     MISSING,
     OPEN,
+    PUSHED,
     SATURATED,
     Segment,
 )
@@ -331,6 +332,7 @@ WHY = {
     "impossible derivative": "a logged speed or acceleration is not that of the positions",
     "filter end": "the position filter still starts up there",
     "loops open": "the loops cannot be closed with these positions",
+    "push": "something pushed on the robot, which `modeler add` left out",
 }
 """In short, for legends, and in a sentence."""
 
@@ -343,6 +345,7 @@ _OF = {
     CONTRADICTED: "impossible derivative",
     SATURATED: "torque at its limit",
     OPEN: "loops open",
+    PUSHED: "push",
 }
 
 

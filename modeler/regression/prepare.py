@@ -241,6 +241,8 @@ def prepare_logs(
     steps, prepared = [joint.step for joint in positions.joints], []
     for run, (log, (log_pieces, cuts)) in enumerate(zip(logs, seen.cut, strict=True)):
         _, damage, scales = repair.get_repaired(run, processing)
+        pushes = processing.get_pushes(log)
+        log_pieces = tuple(replace(piece, pushes=pushes) for piece in log_pieces)
         used_pieces, check, source = _choose_derivatives(log, log_pieces, chosen, noisy)
         # what is left of rows that repeat comes unevenly, as it was stamped
         own_spectra = [s for p, s in zip(pieces, seen.spectra, strict=True) if p.run == run]

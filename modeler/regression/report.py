@@ -211,6 +211,7 @@ class LogReport(ShortRepr):
         open_times: of samples with which the loops cannot be closed, s.
         path: of the file as it was given; "" if none was.
         told: how it was read, sentences.
+        pushes: windows that are left out, as something pushed on the robot, s.
     """
 
     name: str
@@ -237,6 +238,7 @@ class LogReport(ShortRepr):
     open_times: tuple[float, ...] = ()
     path: str = ""
     reading_notes: tuple[str, ...] = ()
+    pushes: tuple[tuple[float, float], ...] = ()
 
     def format_lines(self) -> list[str]:
         """Returns text, the first line always, the others where there is something to say."""
@@ -262,7 +264,7 @@ class LogReport(ShortRepr):
         if self.contradicted:
             text.append(f"  {self.contradicted} samples with impossible derivatives, all joints:")
         text += [f"  {contradiction.format_line()}" for contradiction in self.contradictions]
-        text += [f"  {line}" for line in self._describe_open_loops()]
+        text += [f"  {line}" for line in (*self._describe_open_loops(), *self.describe_pushes())]
         return text + [f"  {note}" for note in (*self.reading_notes, *self.notes)]
 
     def collect_warnings(self) -> list[str]:
@@ -296,6 +298,14 @@ class LogReport(ShortRepr):
         ]
         loops = "the loops cannot be closed here; not used, but check positions and geometry"
         return marks + [Mark("open", "all joints", t, t, loops) for t in self.open_times]
+
+    def describe_pushes(self) -> list[str]:
+        """Returns a sentence on each window that is left out, as something pushed there."""
+        return [
+            f"{start:.2f} to {end:.2f} s ({round((end - start) * self.rate)} rows) left out: "
+            "something pushed on the robot"
+            for start, end in self.pushes
+        ]
 
     def _describe_open_loops(self) -> list[str]:
         """Returns a sentence where loops cannot be closed."""
@@ -624,6 +634,7 @@ def build_log_report(
         open_times=open_times,
         path=log.path,
         reading_notes=log.reading_notes,
+        pushes=prepared.pieces[0].pushes if prepared.pieces else (),
     )
 
 

@@ -283,6 +283,8 @@ def build_chunk_rows(
     mended, damage, _ = faults.repair_log(chunk.log, spec, chosen.channel_scales, repairs)
     log = chunk.log if processing.keep_damaged else mended
     pieces, cuts = split_log(log, chosen.run, chosen.logged, chosen.extremes)
+    pushes = processing.get_pushes(log)
+    pieces = tuple(dataclasses.replace(piece, pushes=pushes) for piece in pieces)
     check = None
     if chosen.logged:
         check = check_derivatives(log, pieces, processing.parallel_cutoff, refuse=False)
