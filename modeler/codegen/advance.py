@@ -18,6 +18,7 @@ from modeler.derivation import (
     MOTOR_MOTION,
     BaseParameters,
     Expr,
+    Graph,
     Signal,
     SymbolicModel,
     combine_linearly,
@@ -57,7 +58,7 @@ def build_advance_functions(
     words = {"first": "", "dq": "dq", "motion": motion}
     if not model.windups:
         return [arguments.declare("advance", values, words)]
-    travels = any(s.kind in ("slip", "direction") for s in model.signals)
+    travels = any(s.kind in ("slip", "bouc_wen", "direction") for s in model.signals)
     words = {"first": "q qd qdd", "dq": "dq" * travels, "motion": "beta elastic"}
     reset = _rest_windups(model, beta, elastic)
     rest = [reset.get(signal, model.graph.constant(0)) for signal in model.signals]
@@ -93,6 +94,8 @@ def _advance_signal(model: SymbolicModel, signal: Signal, now: Mapping[Signal, E
     if signal.kind == "slip":  # Dahl's bristle, exact where the direction is constant
         toward = graph.call("sign", way)
         return toward + (s - toward) * graph.call("exp", -graph.call("abs", share))
+    if signal.kind == "bouc_wen":
+        return _advance_loop(graph, s, share, signal.share)
     direction = (
         s if signal.kind == "direction" else get_signal_symbol(model, signal.prerequisites[0])
     )
@@ -106,6 +109,35 @@ def _advance_signal(model: SymbolicModel, signal: Signal, now: Mapping[Signal, E
     size = graph.call("abs", share) + graph.constant(Fraction(1, 10**30))  # it may be 0
     longer = s + dt - two * (one + graph.call("abs", moved)) * dt / size
     return s + dt - turned * (longer + graph.call("abs", longer)) / two
+
+
+def _advance_loop(graph: Graph, z: Expr, travel: Expr, share: float) -> Expr:
+    """Bouc and Wen's z after a signed travel in units of d, exact where the direction is constant.
+
+    With w = z sign(v), k = 1 - 2 b and x = |travel|: w' = 1 + k w where w < 0, else 1 - w. So with
+    n = min(w, 0) and r = exp(-x) (1 + k n)^(-1/k), which is 1 where w passes 0, w is
+    (r^-k - 1)/k before (-ln r for k = 0), and 1 - (1 - max(w, 0)) r from there on.
+    """
+    one, half, k = graph.constant(1), graph.constant(Fraction(1, 2)), 1 - 2 * Fraction(repr(share))
+
+    def split(x: Expr, at: Expr) -> tuple[Expr, Expr]:
+        """The lower and the higher of both."""
+        apart = graph.call("abs", x - at)
+        return half * (x + at - apart), half * (x + at + apart)
+
+    way = graph.call("sign", travel)
+    zero = one - one
+    below, above = split(way * z, zero)
+    if k == 0:
+        negative, positive = split(below + graph.call("abs", travel), zero)
+        w = negative + one - (one - above) * graph.call("exp", -positive)
+    else:
+        factor = graph.constant(k)
+        rest = graph.call("exp", -graph.call("abs", travel))
+        rest = rest * graph.power(one + factor * below, graph.constant(-1 / k))
+        low, high = split(rest, one)
+        w = (graph.power(high, -factor) - one) / factor + one - (one - above) * low
+    return way * w + (one - way * way) * z  # at rest nothing changes
 
 
 # Elastic joints.

@@ -103,7 +103,9 @@ def build_module_spec(model: SymbolicModel, base: BaseParameters) -> ModuleSpec:
         functions=(),
         closure=closing,
         signals=tuple(
-            manifest.SignalSpec(signal.kind, joint, format_unit(signal), signal.value)
+            manifest.SignalSpec(
+                signal.kind, joint, format_unit(signal), signal.value, signal.share
+            )
             for signal, joint in zip(model.signals, measured, strict=True)
         ),
         inertial_uncertainty=robot.uncertainty.get("inertial"),
@@ -386,7 +388,7 @@ def _build_module(
         "nonzero_columns": layout.wrap_names([column for _, column in shown]),
         "loops": loops,
         "elastic": len(spec.windups),
-        "travels": any(s.kind in ("slip", "direction") for s in spec.signals),
+        "travels": any(s.kind in ("slip", "bouc_wen", "direction") for s in spec.signals),
         "plain": not layout.needs_more_than_speed(model),
         "signature": "",
         "tile": _build_tile(spec, functions, module.places, labels),

@@ -180,6 +180,7 @@ SIGNALS = {
     "time": "s",
     "temperature": "K or degC",
     "slip": "1",  # bristle of a joint, z' = (v/d)(1 - z sign v)
+    "bouc_wen": "1",  # loop of a cable, z' = (v - b |v| z - (1 - b) v |z|)/d
     "direction": "1",  # sign: which way a joint goes; size: 1 less the share of the way back
     "since": "s",  # time since it last turned back, by the direction before it
     "followed": "SI",  # what the lag after it follows
@@ -202,6 +203,7 @@ class SignalSpec:
         float  # rad or m: travel over which the bristle turns, way back that is a reversal; tau, s;
         # of a windup the joint's stiffness, of its rate the damping: SI
     )
+    share: float = 1.0  # b of a Bouc-Wen loop; 1: Dahl's bristle
 
     @property
     def is_internal_state(self) -> bool:

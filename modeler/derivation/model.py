@@ -190,6 +190,7 @@ class Signal:
         value: as of a `SignalSpec`.
         follows: of a lag and of what it follows, that.
         shapes: values of the shapes in it.
+        share: b of a Bouc-Wen loop.
     """
 
     kind: str
@@ -197,6 +198,7 @@ class Signal:
     value: float = 0.0
     follows: Expression | None = None
     nonlinear_parameters: tuple[tuple[str, float], ...] = ()
+    share: float = 1.0
 
     @property
     def prerequisites(self) -> tuple["Signal", ...]:
@@ -264,8 +266,8 @@ def map_column_signals(column: ShaftColumn) -> dict[str, Signal]:
             raise DerivationError(f"{column.name}: its inner state has no form in C")
         shapes, follows = column.nonlinear_parameters, memory.lagged_input
         shape_items = () if follows is None else tuple(sorted(shapes.items()))
-        shape = shapes[memory.parameter]
-        signals["z"] = Signal(memory.kind, column.row, shape, follows, shape_items)
+        shape, share = shapes[memory.parameter], memory.get_share(shapes)
+        signals["z"] = Signal(memory.kind, column.row, shape, follows, shape_items, share)
     return signals
 
 

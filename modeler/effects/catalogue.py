@@ -39,7 +39,9 @@ _SLIPS = (
     "{d = [0.002, 0.02"
 )
 _LAGS = "lags by a time, which has no positive values here; add it, as in shapes = {tau = [0.1, 1"
-_FURTHER = "scale limits meaning prismatic_unit kind energy largest resonance windup forms needs"
+_FURTHER = (
+    "scale limits meaning prismatic_unit kind energy largest resonance windup bouc_wen forms needs"
+)
 _CATALOGUE_KEYS = (*_KEYS, *_FURTHER.split())
 """What the catalogue says of an effect, besides fields of `Effect` as they are."""
 
@@ -179,6 +181,9 @@ def _read_form(
     memory, remembers = None, any("z" in column.equation.names for column in columns)
     if "resonance" in table:
         memory = InternalState("resonance", *table["resonance"])
+    elif "bouc_wen" in table:
+        distance, share = table["bouc_wen"]
+        memory = InternalState("bouc_wen", distance, share=share)
     elif "lag" in table:
         plain = [name for name in known.variables if name != "z"]
         follows = dataclasses.replace(known, variables=plain).read_equation(

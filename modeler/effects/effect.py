@@ -112,19 +112,26 @@ class InternalState:
     """The inner state z of an effect with memory.
 
     Attributes:
-        kind: "slip": z' = (v/d)(1 - z sign v), the bristle of Dahl's friction; "resonance": the
+        kind: "slip": z' = (v/d)(1 - z sign v), the bristle of Dahl's friction; "bouc_wen":
+            z' = (v - b |v| z - (1 - b) v |z|)/d, the loop of Bouc and Wen; "resonance": the
             load through the oscillator z'' = w^2 (load - z) - 2 zeta w z', w = 2 pi f; "lag":
             z' = (x - z)/tau; "windup": of an elastic joint, e = q_motor - q_link, by which all
             that the links do is behind: no column reads it.
         shape: name of the shape parameter that sets it (d, f, tau or K).
         damping: of a resonance or a windup, name of the shape parameter that is zeta or D.
+        share: of a Bouc-Wen loop, name of the shape parameter that is b.
         follows: of a lag, x.
     """
 
-    kind: Literal["slip", "resonance", "lag", "windup"]
+    kind: Literal["slip", "bouc_wen", "resonance", "lag", "windup"]
     parameter: str
     damping: str = ""
     lagged_input: Expression | None = None
+    share: str = ""
+
+    def get_share(self, values: Mapping[str, float]) -> float:
+        """Returns b of the loop at those values; 1, Dahl's, where it has none."""
+        return values[self.share] if self.share else 1.0
 
 
 @dataclass(frozen=True)

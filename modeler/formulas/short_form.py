@@ -64,7 +64,7 @@ def collect_symbol_names(model: SymbolicModel, parameters: Mapping[int, str]) ->
 def get_signal_letters(model: SymbolicModel) -> list[str]:
     """Returns the letters of the signals that effects read besides the motion: t1, T2, z3."""
     kinds = {"time": "t", "temperature": "T", "slip": "z", "direction": "w"}
-    kinds |= {"since": "r", "followed": "x", "lag": "z"}
+    kinds |= {"since": "r", "followed": "x", "lag": "z", "bouc_wen": "z"}
     return [f"{kinds[signal.kind]}{k + 1}" for k, signal in enumerate(model.signals)]
 
 

@@ -222,10 +222,19 @@ def clear_resting_speeds(
 # Inner states along measured positions, as `advance` of the C steps them.
 
 
-def compute_bristle_state(q: np.ndarray, distance: float) -> np.ndarray:
-    """Returns (n,) the state z of Dahl's friction along positions q (n,), from z = sign v.
+def compute_bristle_state(
+    q: np.ndarray, distance: float, share: float = 1.0, start: float = 0.0
+) -> np.ndarray:
+    """Returns (n,) the state z of a Bouc-Wen loop along positions q (n,).
 
-    z' = (v/d)(1 - z sign v): between reversals z = s + (z0 - s) exp(-travel/d), s = sign v.
+    z' = (v - b |v| z - (1 - b) v |z|)/d. Between reversals w = z sign v grows with the travel x in
+    units of d: with y = ln(1 + k w)/k, k = 1 - 2 b, where w < 0, else y = -ln(1 - w), y' = 1.
+
+    Args:
+        q: positions.
+        distance: d.
+        share: b; 1 is Dahl's bristle.
+        start: z of the first.
     """
     step = np.diff(q)
     if not step.any():
@@ -236,14 +245,18 @@ def compute_bristle_state(q: np.ndarray, distance: float) -> np.ndarray:
     begins = np.concatenate([[0], np.flatnonzero(np.diff(direction)) + 1])
     lengths = np.diff(np.append(begins, len(step)))
     travel = np.abs(q[1:] - np.repeat(q[begins], lengths))
-    left = np.exp(-travel / distance)
-    way, remaining = direction[begins], left[begins + lengths - 1]
-    apart = np.empty(len(begins))  # z - s at each turn
-    before = float(direction[0])
-    for k, (s, share) in enumerate(zip(way.tolist(), remaining.tolist(), strict=True)):
-        apart[k] = before - s
-        before = s + (before - s) * share
-    return np.concatenate([direction[:1], direction + np.repeat(apart, lengths) * left])
+    travel = travel / distance
+    way, last = direction[begins], travel[begins + lengths - 1]
+    k = (1.0 - 2.0 * share) or 1e-12
+    first, z = np.empty(len(begins)), start  # y at each turn
+    for i, (s, stroke) in enumerate(zip(way.tolist(), last.tolist(), strict=True)):
+        w = s * z
+        first[i] = math.log1p(k * w) / k if w < 0.0 else -math.log(max(1.0 - w, 1e-300))
+        y = first[i] + stroke
+        z = s * (math.expm1(k * y) / k if y < 0.0 else -math.expm1(-y))
+    y = np.repeat(first, lengths) + travel
+    ahead = np.expm1(k * np.minimum(y, 0.0)) / k - np.expm1(-np.maximum(y, 0.0))
+    return np.concatenate([[start], direction * ahead])
 
 
 def compute_time_since_reversal(
@@ -316,9 +329,9 @@ def compute_signals_along(
             read[:, k] = time
         elif signal.kind == "temperature":
             read[:, k] = temperature(signal.joint)
-        elif signal.kind == "slip":
+        elif signal.kind in ("slip", "bouc_wen"):
             q = motion[0][:, names.index(signal.joint)]
-            read[:, k] = compute_bristle_state(q, signal.value)
+            read[:, k] = compute_bristle_state(q, signal.value, signal.share)
         elif signal.kind == "direction":  # the time since it changed stands after it
             q = motion[0][:, names.index(signal.joint)]
             pair = compute_time_since_reversal(q, step, signal.value)

@@ -67,7 +67,8 @@ def build_axis(state: State, pick: Candidate, j: int, effect_torque: np.ndarray)
         state.rows.filter_samples(j, [_VALUES["v"](pick, s, j) for s in state.rows.signals])
     )
     # where the effect turns with the motion and the axis does not say which way it goes
-    slips = pick.form.internal_state is not None and pick.form.internal_state.kind == "slip"
+    memory = pick.form.internal_state
+    slips = memory is not None and memory.kind in ("slip", "bouc_wen")
     turns = shows not in ("v", "a", "waves") and ("v" in pick.form.names or slips)
     values = [_VALUES[shows](pick, s, j) for s in state.rows.signals]
     if shows == "load" and turns:

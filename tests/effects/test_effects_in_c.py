@@ -86,7 +86,9 @@ def test_c_computes_the_catalogues_equation(effect: Effect, form: int) -> None:
     weight = (compiled.regressor(q, still, still, signals) @ (chi * links))[:, 1]
     values |= {"load": load_torque, "static": weight, "torque": (phi @ chi)[:, 1]}
     for k, signal in enumerate(compiled.spec.signals):
-        values[{"time": "t", "temperature": "T", "slip": "z"}[signal.kind]] = s[:, k]
+        values[{"time": "t", "temperature": "T", "slip": "z", "bouc_wen": "z"}[signal.kind]] = s[
+            :, k
+        ]
     for column in effect.forms[form].columns:
         expected = np.ones(SAMPLES) * column.equation.fold(values, FUNCTIONS, np.pi, float)
         got = phi[:, 1, names.index(f"{column.prefix}2")]

@@ -6,10 +6,13 @@ from typing import Literal
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
 
-from modeler.api import derive, generate
+from modeler.api import derive, generate, load
 from modeler.core.errors import ShapeError
 from modeler.regression import segments
+from modeler.robot.edit import replace_effects
+from modeler.robot.read import parse_robot_text
 from tests.effects.test_own_effects_in_c import REFERENCE, arm_with
 from tests.modules import loaded
 
@@ -118,3 +121,64 @@ def test_the_c_steps_lags_as_the_equations_say(precision: Literal["double", "sin
         now = motion[:, k]
         state = compiled.advance(now[0] - motion[0, k - 1], 0.02, state, *now)
         assert_allclose(state, read[k], rtol=10 * exact, atol=10 * exact)
+
+
+# Bristles and loops of cables: z' = (v - b |v| z - (1 - b) v |z|)/d, by scipy and by the C.
+
+
+def strokes(time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Positions and speeds of a joint that turns back after short and long ways, and rests."""
+    moving = np.clip(time - 0.2, 0.0, 2.5)
+    q = 0.2 * np.sin(5.0 * moving) + 0.1 * np.sin(17.0 * moving)
+    v = np.where((time > 0.2) & (time < 2.7), np.cos(5.0 * moving) + 1.7 * np.cos(17.0 * moving), 0)
+    return q, v
+
+
+@pytest.mark.parametrize(("share", "start"), [(1.0, 0.0), (0.5, -0.6), (0.7, 0.9), (0.2, 0.3)])
+def test_a_loop_is_the_solution_of_its_equation(share: float, start: float) -> None:
+    distance, time = 0.08, 0.001 * np.arange(3000)
+
+    def rate(t: float, z: np.ndarray) -> np.ndarray:
+        v = strokes(np.array([t]))[1]
+        return (v - share * np.abs(v) * z - (1.0 - share) * v * np.abs(z)) / distance
+
+    solved = solve_ivp(rate, (0.0, time[-1]), [start], "LSODA", time, rtol=1e-9, atol=1e-10)
+    z = segments.compute_bristle_state(strokes(time)[0], distance, share, start)
+    # a turn between two samples is seen at the next: 2 rad/s in half a millisecond over d, at most
+    assert_allclose(z, solved.y[0], atol=5e-4)
+    assert np.ptp(z) > 1.0
+
+
+def with_cable(share: float, precision: Literal["double", "single"] = "double"):
+    text = load("demo-arm").text
+    text = text[: text.index("[parameters]")]
+    cable = {"cable_hysteresis": [{"joint": "2", "d": 0.08, "b": share}]}
+    robot = parse_robot_text(replace_effects(text, cable), "cable")
+    return loaded(generate(derive(robot), precision=precision))
+
+
+@pytest.mark.parametrize("share", [1.0, 0.5, 0.7, 0.2])
+@pytest.mark.parametrize(
+    "precision", ["double", pytest.param("single", marks=pytest.mark.rotating)]
+)
+def test_the_c_steps_a_loop_as_the_log_is_read(share: float, precision) -> None:
+    """Sample by sample, at a constant speed of any size, at rest, and from either end."""
+    compiled, exact = with_cable(share, precision), 1e-11 if precision == "double" else 2e-4
+    (signal,) = compiled.spec.signals
+    assert (signal.kind, signal.value, signal.share) == ("bouc_wen", 0.08, share)
+    time = 0.002 * np.arange(1500)
+    q = np.zeros((len(time), 3))
+    q[:, 1] = strokes(time)[0]
+    read = segments.compute_signals_along(compiled, (q, 0 * q, 0 * q), time, lambda joint: time)
+    assert read is not None and read[0, 0] == 0.0
+    state = read[0]
+    for k in range(1, len(time)):
+        state = compiled.advance(q[k] - q[k - 1], 0.002, state)
+        assert_allclose(state, read[k], atol=exact)
+    for start in (-1.0, -0.4, 0.0, 0.7, 1.0):
+        for moved in (1e-9, -0.05, 0.4, -1e9, 1e9):
+            ways = np.concatenate([[0.0], np.linspace(0.0, moved, 5)[1:]])
+            along = segments.compute_bristle_state(ways, 0.08, share, start)
+            once = compiled.advance([0.0, moved, 0.0], 0.002, [start])
+            assert_allclose(once, along[-1], atol=exact)
+        assert compiled.advance([1.0, 0.0, 1.0], 0.002, [start]) == pytest.approx(start, abs=1e-7)
