@@ -409,7 +409,10 @@ def _score_addition(
             f"({format_percent(pick.visible_share)} of it is left); {effect.confounders}"
         )
     after, refitted = _fit_with_candidate(before, pick), effect.acts is not EffectTarget.LINK
-    first, last = (one.compute_held_out_residuals(refitted) for one in (before, after))
+    same = before
+    if before.model.spec.signals != after.model.spec.signals:  # states are unknown in other rows
+        same = replace(before, rows=before.rows.restrict_to(after.rows))
+    first, last = (one.compute_held_out_residuals(refitted) for one in (same, after))
     score = scoring.score_change(first, last)
     if not score.joints:
         raise DataError("no joint has a torque in these logs; expected logs of a robot that moves")

@@ -389,10 +389,16 @@ class LogRows:
 
     def rebuild_for(self, compiled: CompiledModel) -> "LogRows":
         """Returns the rows of the same robot with other effects; nothing is filtered again."""
-        if regression.find_shafts(compiled) == regression.find_shafts(self.compiled):
+        same = compiled.spec.signals == self.compiled.spec.signals  # and so are unknown states
+        if same and regression.find_shafts(compiled) == regression.find_shafts(self.compiled):
             seen = tuple(regression.rebuild_observation(compiled, x) for x in self.observations)
             return replace(self, compiled=compiled, observations=seen)
         return _observe_rows(compiled, self.logs, self.prepared)
+
+    def restrict_to(self, other: "LogRows") -> "LogRows":
+        """Returns the rows that count in others of the same logs too."""
+        pairs = zip(self.observations, other.observations, strict=True)
+        return replace(self, observations=tuple(x.select_rows(x.used & y.used) for x, y in pairs))
 
 
 def build_rows(

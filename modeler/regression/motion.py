@@ -173,7 +173,8 @@ CONTRADICTED = "have impossible derivatives, or lie as near to them as the posit
 SATURATED = "have a torque at its limit"
 OPEN = "have positions with which the loops cannot be closed"
 PUSHED = "lie in a window in which something pushed on the robot"
-CAUSES = (EDGE, MISSING, BRIDGES, CONTRADICTED, SATURATED, OPEN, PUSHED)
+UNSETTLED = "lie at a start, where the state of a bristle or cable is unknown"
+CAUSES = (EDGE, MISSING, BRIDGES, CONTRADICTED, SATURATED, OPEN, PUSHED, UNSETTLED)
 """In this order; the first that applies counts."""
 
 

@@ -23,6 +23,7 @@ from modeler.regression.motion import (
     OPEN,
     PUSHED,
     SATURATED,
+    UNSETTLED,
     Segment,
 )
 from modeler.regression.prepare import PreparedLogs, close_segments
@@ -37,6 +38,7 @@ from modeler.regression.segments import (
     find_all_shafts,
     find_moving_samples,
     find_shafts,
+    mask_unsettled_samples,
 )
 from modeler.regression.thresholds import THRESHOLDS
 from modeler.runtime import (
@@ -232,6 +234,7 @@ def build_observation(
         LoopError: hardly a sample closes the loops.
     """
     segments, open_times = close_segments(model, logs, prepared.segments)
+    segments = tuple(mask_unsettled_samples(model.spec, segment) for segment in segments)
     parts = find_all_shafts(model) if every_joint else find_shafts(model)
     seen = prepared.processing, parts, segments
     floors = compute_speed_floors(*seen, prepared.noise)
@@ -333,6 +336,7 @@ WHY = {
     "filter end": "the position filter still starts up there",
     "loops open": "the loops cannot be closed with these positions",
     "push": "something pushed on the robot, which `modeler add` left out",
+    "unknown state": "the state of a bristle or cable at the start is not forgotten yet",
 }
 """In short, for legends, and in a sentence."""
 
@@ -346,6 +350,7 @@ _OF = {
     SATURATED: "torque at its limit",
     OPEN: "loops open",
     PUSHED: "push",
+    UNSETTLED: "unknown state",
 }
 
 

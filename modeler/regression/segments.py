@@ -11,8 +11,9 @@ from scipy.sparse import csr_array
 
 from modeler.core.errors import DataError, LoopError
 from modeler.core.json import ShortRepr
+from modeler.core.manifest import ModuleSpec
 from modeler.numerics import filters
-from modeler.regression.motion import ChosenProcessing, Segment, dilate_flags
+from modeler.regression.motion import CAUSES, UNSETTLED, ChosenProcessing, Segment, dilate_flags
 from modeler.regression.motion_noise import MotionNoise
 from modeler.regression.thresholds import THRESHOLDS
 from modeler.runtime import CompiledModel, average_rows
@@ -238,7 +239,7 @@ def compute_bristle_state(
     """
     step = np.diff(q)
     if not step.any():
-        return np.zeros(len(q))
+        return np.full(len(q), start)
     known = np.flatnonzero(step)
     place = np.searchsorted(known, np.arange(len(step)), side="right") - 1
     direction = np.sign(step)[known[np.maximum(place, 0)]]  # the last before a rest, or the first
@@ -257,6 +258,25 @@ def compute_bristle_state(
     y = np.repeat(first, lengths) + travel
     ahead = np.expm1(k * np.minimum(y, 0.0)) / k - np.expm1(-np.maximum(y, 0.0))
     return np.concatenate([[start], direction * ahead])
+
+
+def mask_unsettled_samples(spec: ModuleSpec, segment: Segment) -> Segment:
+    """Returns the segment without samples of joints whose inner state at its start still counts.
+
+    Nobody knows it: those count where z from -1 and z from 1 have come together; a state that is
+    not forgotten within a share of the segment counts from there on.
+    """
+    cause, names = segment.cause.copy(), [joint.name for joint in spec.joints]
+    most = round(THRESHOLDS.max_unsettled_share * segment.samples)
+    for signal in spec.signals:
+        if signal.kind in ("slip", "bouc_wen"):
+            j = names.index(signal.joint)
+            first = segment.q[:most, j], signal.value, signal.share
+            low, high = (compute_bristle_state(*first, start) for start in (-1.0, 1.0))
+            unsettled = np.flatnonzero(high - low > THRESHOLDS.max_state_doubt)
+            here = cause[: unsettled[-1] + 1 if unsettled.size else 0, j]
+            here[here < 0] = CAUSES.index(UNSETTLED)
+    return dataclasses.replace(segment, cause=cause)
 
 
 def compute_time_since_reversal(
