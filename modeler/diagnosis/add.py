@@ -26,12 +26,12 @@ from modeler.diagnosis.added_model import (
     read_catalogue,
 )
 from modeler.diagnosis.diagnosis import find_fixed_parameters
-from modeler.diagnosis.events import detect_other_push, detect_push, mask_window
+from modeler.diagnosis.events import detect_other_push, detect_push, mask_unsettled, mask_window
 from modeler.diagnosis.generation import estimate_instrumental
 from modeler.diagnosis.learn import ANY_LAW, LawRequest, LearnedLaw, learn_law
 from modeler.diagnosis.messages import format_location
 from modeler.diagnosis.plausibility import compute_gain_visibility, find_caveat, is_gain
-from modeler.diagnosis.profile import name_parameters
+from modeler.diagnosis.profile import name_parameters, polish_nonlinear_parameters
 from modeler.diagnosis.search import extend_state, scan_candidates, scan_catalogue
 from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state, observe_in_band
 from modeler.diagnosis.thresholds import THRESHOLDS
@@ -393,6 +393,10 @@ def _select_candidate(
         delay = estimate_instrumental(state, candidate)[0]
         return result.FittedCandidate(candidate, delay, state, visible)
     later = extend_state(state, candidate)  # a wrong gain bends the model whose torques it scales
+    if (memory := candidate.form.internal_state) is not None and memory.is_hysteresis:
+        state = build_state(mask_unsettled(state.data, [candidate]), (), state.beta)
+        candidate = polish_nonlinear_parameters(extend_state(state, candidate), 0)
+        later = extend_state(state, candidate)
     if is_gain(candidate):
         visible = compute_gain_visibility(later, 0)
     return result.FittedCandidate(candidate, later.values[0], later, visible)

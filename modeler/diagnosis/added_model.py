@@ -119,9 +119,11 @@ def _widen_covariance(
             scale[i] = max(1.0, float(deviation / np.sqrt(covariance[i, i])))
     covariance = covariance * np.outer(scale, scale)
     # the fit has a narrower band, and with it values that differ a little
-    moved = fit.beta[effect_columns] - along.reported_point.values
-    ends = [(float(low), float(high)) for low, high in along.compute_intervals() + moved[:, None]]
-    intervals, sigma = dict(zip(effect_columns, ends, strict=True)), np.sqrt(np.diag(covariance))
+    values, sigma = along.reported_point.values, np.sqrt(np.diag(covariance))
+    wider = np.maximum(1.0, sigma[effect_columns] / along.compute_deviations())[:, None]
+    reach = wider * (along.compute_intervals() - values[:, None])
+    ends = [(float(low), float(high)) for low, high in fit.beta[effect_columns, None] + reach]
+    intervals = dict(zip(effect_columns, ends, strict=True))
     parameters = tuple(
         replace(p, sigma=float(sigma[i]), interval=intervals.get(i, p.interval)) if known[i] else p
         for i, p in enumerate(fit.parameters)

@@ -9,12 +9,12 @@ from threadpoolctl import threadpool_limits
 
 from modeler.core.errors import DataError
 from modeler.diagnosis import findings
-from modeler.diagnosis.candidates import StatedEffects, thin_samples
-from modeler.diagnosis.events import detect_other_push, detect_push, mask_window
+from modeler.diagnosis.candidates import Candidate, StatedEffects, thin_samples
+from modeler.diagnosis.events import detect_pushes, leave_out
 from modeler.diagnosis.generation import estimate_logger_shift, generate_candidates
 from modeler.diagnosis.messages import exclude_friction, find_faults
 from modeler.diagnosis.plausibility import find_gravity_confounders
-from modeler.diagnosis.result import Diagnosis, ParameterChange, PushWindow
+from modeler.diagnosis.result import Diagnosis, ParameterChange
 from modeler.diagnosis.scoring import make_veto
 from modeler.diagnosis.search import Search, SearchStep, search_effects
 from modeler.diagnosis.state import (
@@ -136,8 +136,7 @@ def diagnose(
         made: list[findings.BandSearch] = []
         far = beyond if beyond is not None and get_cutoff(beyond) > get_cutoff(data) else None
         far_held_out = None if far is None else _prepare_holdout(far, holdout)
-        if far_held_out is not None and held_push is not None:
-            far_held_out = mask_window(far_held_out, held_push)
+        far_held_out = far_held_out and leave_out(far_held_out, held_push, named)
         for band_data, held in ((data, other), (far, far_held_out)):
             if band_data is None:
                 continue
@@ -154,7 +153,7 @@ def diagnose(
             made.append(findings.evaluate_search(search, held, checks, stages.advance))
         return made
 
-    held_push: PushWindow | None = None
+    held_push, named = None, list[Candidate]()
     bands = search_bands()
     aligned = _align_logger_delay(data, bands[0].search, model, repair)
     if aligned is not None:
@@ -163,21 +162,18 @@ def diagnose(
         bands = search_bands()
     pushes = [e for e in data.stated_effects.catalogue if e.acts is EffectTarget.WINDOW]
     may_push = [effect for effect in pushes if effect.id not in without]
-    last, window = bands[-1].search, None
-    if may_push and last.last.ranked:
-        window = detect_push(last.end, last.start.data)
-    if window is not None:
-        data = mask_window(data, window)
-        beyond = None if beyond is None else mask_window(beyond, window)
-    if may_push and other is not None:
-        held_push = detect_other_push(
-            build_state(data, bands[0].search.end.picks, model.beta), other
-        )
-    if held_push is not None and other is not None:
-        other, where = mask_window(other, held_push), held_push.describe(other.observation.logs)
+    window = None
+    if may_push:
+        window, held_push = detect_pushes(bands[-1].search, data, other)
+    if other is not None and held_push is not None:
+        where = held_push.describe(other.observation.logs)
         faults += (DataWarning(f"held out: {where}; left out of the errors"),)
-        window = None if window is None else replace(window, held_out_push=where)
-    if window is not None or held_push is not None:
+    steps = [step.candidate for band in bands for step in band.search.steps]
+    named = [one for one in steps if (m := one.form.internal_state) and m.is_hysteresis]
+    if window is not None or held_push is not None or named:
+        data = leave_out(data, window, named)
+        beyond = beyond and leave_out(beyond, window, named)
+        other = other and leave_out(other, held_push, named)
         bands = search_bands()
     stages.begin_stage(_NAMED if equations else 1.0)
     changes = tuple[ParameterChange, ...]()

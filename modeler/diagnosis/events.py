@@ -1,11 +1,12 @@
 """Findings that occur only once or in bursts: pushes, backlash."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from modeler import regression
 from modeler.core.table import format_error_pair, format_percent
 from modeler.diagnosis.candidates import Candidate
 from modeler.diagnosis.generation import compute_burst_share, is_ruled_out
@@ -39,6 +40,20 @@ class _WindowEnergies:
     start: np.ndarray
     end: np.ndarray
     energy: np.ndarray
+
+
+def detect_pushes(
+    search: Search, data: SearchData, other: SearchData | None
+) -> tuple[PushWindow | None, PushWindow | None]:
+    """Detects when something pushed in the logs of a search, and in the held-out ones."""
+    window = detect_push(search.end, search.start.data) if search.last.ranked else None
+    if other is None:
+        return window, None
+    rest = data if window is None else mask_window(data, window)
+    held_out = detect_other_push(build_state(rest, search.end.picks, search.end.beta), other)
+    if window is not None and held_out is not None:
+        window = replace(window, held_out_push=held_out.describe(other.observation.logs))
+    return window, held_out
 
 
 def detect_push(end: State, data: SearchData) -> PushWindow | None:
@@ -79,11 +94,36 @@ def _find_whole_push(
     return fit_push_torque(window, state, data)
 
 
+def leave_out(
+    data: SearchData, window: PushWindow | None, candidates: Iterable[Candidate]
+) -> SearchData:
+    """Returns the data without a push, and without unknown states of bristles and cables."""
+    rest = mask_unsettled(data, candidates)
+    return rest if window is None else mask_window(rest, window)
+
+
 def mask_window(data: SearchData, window: PushWindow) -> SearchData:
     """Returns the data without the rows of a window, and a little around it."""
     observation, (start, end) = data.observation, window.span
     hit = (observation.run == window.log) & (observation.time > start) & (observation.time < end)
     return replace(data, observation=observation.select_rows(observation.used & ~hit[:, None]))
+
+
+def mask_unsettled(data: SearchData, candidates: Iterable[Candidate]) -> SearchData:
+    """Returns the data without rows in which the state of a bristle or cable is unknown yet."""
+    observation, used = data.observation, data.observation.used.copy()
+    for candidate in candidates:
+        memory, values = candidate.form.internal_state, candidate.nonlinear_parameters
+        if memory is None or not memory.is_hysteresis:
+            continue
+        end, distance, share = 0, values[memory.parameter], memory.get_share(values)
+        for part in observation.stretches:
+            rows, end = slice(end, end + len(part.used)), end + len(part.used)
+            q = part.segment.q[:, candidate.index]
+            count = regression.count_unsettled_samples(q, distance, share)
+            early = observation.time[rows] < part.segment.time[min(count, len(q) - 1)]
+            used[rows, candidate.index] &= ~early
+    return replace(data, observation=observation.select_rows(used))
 
 
 def find_contact_window(left: Residuals) -> PushWindow | None:

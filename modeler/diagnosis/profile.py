@@ -129,6 +129,12 @@ class ProfileProblem:
         scaled, _, left = self.weighted_target
         return left + float(torque @ torque - 2.0 * torque @ np.concatenate(scaled))
 
+    def compute_residual(self, torque: np.ndarray) -> np.ndarray:
+        """Computes what all else and a torque leave of y, over sigma, (rows of all joints,)."""
+        y, u, _ = self.weighted_target
+        pairs = zip(self.weighted_base[0], y, strict=True)
+        return np.concatenate([t - q @ u for q, t in pairs]) - torque
+
     def compute_residual_columns(self, candidate: Candidate) -> np.ndarray:
         """Computes what all else leaves of the columns over sigma, (rows of all joints, k)."""
         columns = self.rows.build_columns(candidate)
@@ -208,8 +214,15 @@ class Profile:
         pairs = zip(self.points, self.squares_rise, strict=True)
         allowed = [point for point, rise in pairs if rise < THRESHOLDS.chi2_95]
         sets = [point.nonlinear_parameters for point in (self.reported_point, *allowed)]
-        values_by_name = {name: [values[name] for values in sets] for name in sets[0]}
-        return {name: (min(values), max(values)) for name, values in values_by_name.items()}
+        ends, deviations = dict[str, tuple[float, float]](), self.compute_nonlinear_deviations()
+        for name, value in self.reported_point.nonlinear_parameters.items():
+            every = [point.nonlinear_parameters[name] for point in self.points]
+            # a grid of several has few points: what it passes by, the deviation reaches
+            half = np.array([-1.0, 1.0]) * np.sqrt(THRESHOLDS.chi2_95) * deviations[name]
+            low, high = np.clip(value + half, min(every), max(every))
+            values = [values[name] for values in sets]
+            ends[name] = (min(float(low), *values), max(float(high), *values))
+        return ends
 
     def compute_extra_covariance(self) -> np.ndarray:
         """Computes what nonlinear parameters add to the covariance, (c + k,) squared, own last."""
@@ -237,16 +250,38 @@ def compute_profile(
     first = problem.fit_candidate(candidate)
     if first is None or not (smooth or fixed):
         return None
+    factors = _compute_factors(problem, candidate, smooth, first)
+    k = len(first.values)
+    factor = float((factors[k:] if len(factors) > k else factors).max())
     points: list[ProfilePoint] = []
     for combination in itertools.product(*fixed.values()):
         chosen = dict(zip(fixed, combination, strict=True))
         here = replace(candidate, nonlinear_parameters={**candidate.nonlinear_parameters, **chosen})
-        points += _scan_nonlinear(problem, here, smooth, first.squares)
+        points += _scan_nonlinear(problem, here, smooth, first.squares, factor)
     points = [p for p in points if _is_possible(candidate, p)] or [first]
-    factors = _compute_factors(problem, candidate, smooth, first)
-    k = len(first.values)
-    shapes = factors[k:] if len(factors) > k else factors
-    return Profile(tuple(points), first, factors[:k], float(shapes.max()))
+    return Profile(tuple(points), first, factors[:k], factor)
+
+
+def polish_nonlinear_parameters(state: State, place: int) -> Candidate:
+    """Returns an effect of a state at the least squares of its smooth shapes, by Gauss-Newton."""
+    candidate = state.picks[place]
+    problem = ProfileProblem(state, candidate, find_effect_columns(state, place))
+    smooth = [shape for shape in candidate.form.nonlinear_parameters if candidate.can_refine(shape)]
+    here = problem.fit_candidate(candidate)
+    if here is None or not smooth:
+        return candidate
+    lines = [_build_line(problem.scale, candidate, shape) for shape in smooth]
+    low, high = (np.array([line[end] for line in lines]) for end in (0, -1))
+    for _ in range(THRESHOLDS.refinement_turns):
+        columns, slopes = _compute_slopes(problem, candidate, smooth)
+        step = np.linalg.lstsq(slopes, problem.compute_residual(columns @ here.values))[0]
+        coded_values = np.clip(candidate.encode_parameters(smooth) + step, low, high)
+        further = candidate.set_parameters(smooth, coded_values)
+        there = problem.fit_candidate(further)
+        if there is None or there.squares >= here.squares or not _is_possible(further, there):
+            break
+        candidate, here = further, there
+    return candidate
 
 
 def _is_possible(candidate: Candidate, point: ProfilePoint) -> bool:
@@ -256,7 +291,7 @@ def _is_possible(candidate: Candidate, point: ProfilePoint) -> bool:
 
 
 def _scan_nonlinear(
-    problem: ProfileProblem, start: Candidate, smooth: _Shapes, least: float
+    problem: ProfileProblem, start: Candidate, smooth: _Shapes, least: float, factor: float
 ) -> list[ProfilePoint]:
     """Points with weights, the smooth shapes over all that makes sense."""
     if not smooth:
@@ -268,7 +303,7 @@ def _scan_nonlinear(
             return problem.fit_candidate(start.set_parameters(smooth, [x]))
 
         return _refine_line(fit, lines[0], least)
-    return _scan_grid(problem, start, smooth, lines)
+    return _scan_grid(problem, start, smooth, lines, THRESHOLDS.grid_reach * factor)
 
 
 def _build_line(scale: JointScale, start: Candidate, shape: NonlinearParameter) -> list[float]:
@@ -309,7 +344,11 @@ def _refine_line(
 
 
 def _scan_grid(
-    problem: ProfileProblem, start: Candidate, smooth: _Shapes, lines: Sequence[Sequence[float]]
+    problem: ProfileProblem,
+    start: Candidate,
+    smooth: _Shapes,
+    lines: Sequence[Sequence[float]],
+    reach: float,
 ) -> list[ProfilePoint]:
     """Points on a grid about the reported shapes, along the axes of the likelihood there."""
     middle = start.encode_parameters(smooth)
@@ -318,7 +357,7 @@ def _scan_grid(
     _, slopes = _compute_slopes(problem, start, smooth)
     values, vectors = np.linalg.eigh(slopes.T @ slopes)
     floor = 1e-9 * max(float(values.max(initial=0.0)), 1e-300)
-    axes = vectors / np.sqrt(np.maximum(values, floor)) * THRESHOLDS.grid_reach
+    axes = vectors / np.sqrt(np.maximum(values, floor)) * reach
     steps = np.linspace(-1.0, 1.0, THRESHOLDS.grid_points)
     places = [middle + axes @ np.array(z) for z in itertools.product(steps, repeat=len(smooth))]
     inside = [x for x in places if np.all((low <= x) & (x <= high))]
@@ -356,9 +395,7 @@ def _compute_factors(
     parameters (White 1980, Econometrica 48(4); Arellano 1987).
     """
     columns, slopes = _compute_slopes(problem, candidate, smooth)
-    y, u, _ = problem.weighted_target
-    left = np.concatenate([t - q @ u for q, t in zip(problem.weighted_base[0], y, strict=True)])
-    left = left - columns @ first.values
+    left = problem.compute_residual(columns @ first.values)
     both = np.column_stack([columns, slopes])
     influence = both @ np.linalg.pinv(both.T @ both, rcond=1e-12, hermitian=True)
     white = np.sum(influence**2, axis=0)

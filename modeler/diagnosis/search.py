@@ -13,7 +13,11 @@ from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis import plausibility
 from modeler.diagnosis.candidates import Candidate, encode_parameter
 from modeler.diagnosis.generation import find_slowest_ringing, generate_candidates
-from modeler.diagnosis.profile import build_reduction_function, name_parameters
+from modeler.diagnosis.profile import (
+    build_reduction_function,
+    name_parameters,
+    polish_nonlinear_parameters,
+)
 from modeler.diagnosis.scoring import (
     CandidateFit,
     RankedCandidates,
@@ -550,6 +554,17 @@ class _Pruning:
             self.tick()
         return refined
 
+    def polish(self, steps: Sequence[SearchStep]) -> list[SearchStep]:
+        """Takes the shapes of bristles and cables to the least squares of all rows."""
+        polished = list(steps)
+        for i, step in enumerate(steps):
+            memory = step.candidate.form.internal_state
+            if memory is not None and memory.is_hysteresis:
+                place = len(self.prior_picks) + i
+                candidate = polish_nonlinear_parameters(self.build_state(polished), place)
+                polished[i] = replace(step, score=self.score_step(polished, step, candidate))
+        return polished
+
 
 def _is_free(step: SearchStep) -> bool:
     return any(step.candidate.can_refine(s) for s in step.candidate.form.nonlinear_parameters)
@@ -569,6 +584,7 @@ def _prune_steps(
         needed = fewer
     if len(needed) + len(prior_picks) > 1:
         needed = pruning.refine(needed, [step for step in needed if _is_free(step)])
+    needed = pruning.polish(needed)
     picks = [*prior_picks, *(step.candidate for step in needed)]
     unchanged = picks == list(pruning.state.picks)
     return needed, pruning.state if unchanged else pruning.build_state(needed)

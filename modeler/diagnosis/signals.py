@@ -176,7 +176,7 @@ class Signals(ShortRepr):
         """Computes inner state z (n,) on joint j from parameters and what a lag follows (n,)."""
         if memory.kind == "lag":
             return apply_lag(followed, self.step, shapes[memory.parameter])
-        if memory.kind in ("slip", "bouc_wen"):
+        if memory.is_hysteresis:
             distance, share = shapes[memory.parameter], memory.get_share(shapes)
             return regression.compute_bristle_state(self.q[:, j], distance, share)
         frequency, damping = shapes[memory.parameter], shapes[memory.damping]

@@ -232,8 +232,8 @@ class Thresholds:
     """Points along one parameter. Bounds the time; no study."""
     grid_points: int = 7
     """Values of each of several parameters. Bounds the time; no study."""
-    grid_reach: float = 3.0
-    """Standard deviations that these cover."""
+    grid_reach: float = 2.9
+    """Standard deviations that these cover: the second of three to either side is within 95 %."""
     neighbouring_orders: int = 6
     """Half waves in the stroke to which other orders of a ripple are tried. No study."""
     slope_step: float = 1e-3

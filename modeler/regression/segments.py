@@ -260,21 +260,26 @@ def compute_bristle_state(
     return np.concatenate([[start], direction * ahead])
 
 
-def mask_unsettled_samples(spec: ModuleSpec, segment: Segment) -> Segment:
-    """Returns the segment without samples of joints whose inner state at its start still counts.
+def count_unsettled_samples(q: np.ndarray, distance: float, share: float) -> int:
+    """Returns how many samples of positions q (n,) the state at the first of them still counts in.
 
-    Nobody knows it: those count where z from -1 and z from 1 have come together; a state that is
-    not forgotten within a share of the segment counts from there on.
+    Nobody knows it: until z from -1 and z from 1 have come together; a state that is not forgotten
+    within a share of the samples does not count from there on.
     """
+    first = q[: round(THRESHOLDS.max_unsettled_share * len(q))], distance, share
+    low, high = (compute_bristle_state(*first, start) for start in (-1.0, 1.0))
+    unsettled = np.flatnonzero(high - low > THRESHOLDS.max_state_doubt)
+    return int(unsettled[-1]) + 1 if unsettled.size else 0
+
+
+def mask_unsettled_samples(spec: ModuleSpec, segment: Segment) -> Segment:
+    """Returns the segment without samples of joints in which an inner state is unknown."""
     cause, names = segment.cause.copy(), [joint.name for joint in spec.joints]
-    most = round(THRESHOLDS.max_unsettled_share * segment.samples)
     for signal in spec.signals:
         if signal.kind in ("slip", "bouc_wen"):
             j = names.index(signal.joint)
-            first = segment.q[:most, j], signal.value, signal.share
-            low, high = (compute_bristle_state(*first, start) for start in (-1.0, 1.0))
-            unsettled = np.flatnonzero(high - low > THRESHOLDS.max_state_doubt)
-            here = cause[: unsettled[-1] + 1 if unsettled.size else 0, j]
+            count = count_unsettled_samples(segment.q[:, j], signal.value, signal.share)
+            here = cause[:count, j]
             here[here < 0] = CAUSES.index(UNSETTLED)
     return dataclasses.replace(segment, cause=cause)
 

@@ -68,7 +68,7 @@ def build_axis(state: State, pick: Candidate, j: int, effect_torque: np.ndarray)
     )
     # where the effect turns with the motion and the axis does not say which way it goes
     memory = pick.form.internal_state
-    slips = memory is not None and memory.kind in ("slip", "bouc_wen")
+    slips = memory is not None and memory.is_hysteresis
     turns = shows not in ("v", "a", "waves") and ("v" in pick.form.names or slips)
     values = [_VALUES[shows](pick, s, j) for s in state.rows.signals]
     if shows == "load" and turns:
