@@ -38,39 +38,112 @@ class Forces:
     dry: np.ndarray
 
 
+class ElasticModel:
+    """The motors and what E elastic joints wind up, (q, e), as n + E coordinates of one robot.
+
+    With the links' inertia matrix L, J that of the rotors and E the elastic joints,
+
+        M = [L + J, -L_.E; -L_E., L_EE],  forces on e: K e + D e' - links_E.
+
+    Args:
+        model: its C.
+        beta: (c,) base parameters.
+    """
+
+    def __init__(self, model: CompiledModel, beta: np.ndarray) -> None:
+        self.spec, self._model, spec = model.spec, model, model.spec
+        names, self.windups = [joint.name for joint in spec.joints], list(spec.windups)
+        elastic = [spec.signals[k].joint for k in self.windups]
+        self._joints = [names.index(name) for name in elastic]
+        rotors = {p.joint: p.name for p in spec.standard if p.effect == "rotor_inertia"}
+        columns = [base.column_of for base in spec.base]
+        self._rotors = np.array([beta[columns.index(rotors[name])] for name in elastic])
+        _, values = model.windup_values or (None, spec.elastic)
+        self._stiffness, self._damping = np.reshape(values, (2, -1))
+
+    def inertia_matrix(self, q: np.ndarray, beta: np.ndarray) -> np.ndarray:
+        """Returns (b, n + E, n + E)."""
+        n, at = len(self.spec.joints), self._joints
+        links = q[:, :n].copy()
+        links[:, at] -= q[:, n:]
+        M = self._model.inertia_matrix(links, beta)
+        bodies = M.copy()
+        bodies[:, at, at] -= self._rotors
+        across = -bodies[:, :, at]
+        return np.block([[M, across], [across.transpose(0, 2, 1), bodies[:, at][:, :, at]]])
+
+    def inverse_dynamics(
+        self, q: np.ndarray, qd: np.ndarray, qdd: np.ndarray, beta: np.ndarray, s: np.ndarray | None
+    ) -> np.ndarray:
+        """Returns (b, n + E) torques of the motors, and forces on e, which are 0 in free motion."""
+        n, at = len(self.spec.joints), self._joints
+        read = np.array(s)
+        for order, x in enumerate((q, qd, qdd)):
+            read[:, [k + order for k in self.windups]] = x[:, n:]
+        spring = self._stiffness * q[:, n:] + self._damping * qd[:, n:]
+        q, qd, qdd = (x[:, :n] for x in (q, qd, qdd))
+        tau = self._model.inverse_dynamics(q, qd, qdd, beta, read)
+        motors = self._model.friction(qd, beta, q, qdd, read)[:, at] + self._rotors * qdd[:, at]
+        return np.hstack([tau, spring - (tau[:, at] - motors)])
+
+    def advance(self, dq: np.ndarray, dt: float, s: np.ndarray, *motion: np.ndarray) -> np.ndarray:
+        """Returns (b, m) the signals after a step; those of elastic joints are coordinates."""
+        n = len(self.spec.joints)
+        q, qd, qdd = (x[:, :n] for x in motion)
+        values = np.ones(len(self.spec.base)), np.append(self._stiffness, self._damping)
+        return self._model.advance(dq[:, :n], dt, s, q, qd, qdd, *values)
+
+
 class FittedPlant:
-    """The robot of a model with its values.
+    """The robot of a model with its values; what elastic joints wind up are coordinates of it too.
 
     Args:
         model: its C.
         beta: (c,) base parameters, SI units.
 
     Attributes:
-        joints: n.
+        joints: n, of all coordinates.
         shafts: k.
     """
 
     def __init__(self, model: CompiledModel, beta: np.ndarray) -> None:
-        self.model, self.beta = model, np.asarray(beta, dtype=float)
-        self.joints = len(model.spec.joints)
+        self.beta = np.asarray(beta, dtype=float)
+        self.robot = model
+        self.model = ElasticModel(model, self.beta) if model.spec.windups else model
+        self.joints = len(model.spec.joints) + len(model.spec.windups)
         closure = model.spec.closure
         rubbing = {p.joint for p in model.spec.standard if p.kind == "friction"}
         if closure is None:
             self._rows = np.array([part.coefficients for part in find_shafts(model)])
-            self._rows = self._rows.reshape(-1, self.joints)
+            self._rows = self._rows.reshape(-1, len(model.spec.joints))
+            self._rows = np.pad(self._rows, ((0, 0), (0, len(model.spec.windups))))
             self._places: list[int] = []
             self.shafts = len(self._rows)
         else:
             self._places = [i for i, name in enumerate(closure.variables) if name in rubbing]
             self.shafts = len(self._places)
-        self.inner = [i for i, signal in enumerate(model.spec.signals) if signal.is_internal_state]
+        self.inner = [
+            i
+            for i, signal in enumerate(model.spec.signals)
+            if signal.is_internal_state and not signal.kind.startswith("windup")
+        ]
         """Places in s of what is part of the state."""
+
+    def extend(self, x: np.ndarray, s: np.ndarray | None, order: int) -> np.ndarray:
+        """Returns (..., n) coordinates of joints (..., j) and signals, or derivatives of an order.
+
+        Of an order above 1 the windups have none: what acts on them from outside.
+        """
+        places = [k + order for k in self.model.spec.windups]
+        if not places or s is None:
+            return x
+        return np.concatenate([x, s[..., places] if order < 2 else 0.0 * s[..., places]], axis=-1)
 
     def can_close(self, q: np.ndarray) -> np.ndarray:
         """Returns (b,) True where the loops close; everywhere without loops."""
         if self.model.spec.closure is None:
             return np.ones(len(q), dtype=bool)
-        return np.asarray(self.model.closing_status(q) == 0)
+        return np.asarray(self.robot.closing_status(q) == 0)
 
     def check_inertia(self, q: np.ndarray) -> None:
         """Refuses values with which some posture among q (b, n) has no inertia.
@@ -78,12 +151,17 @@ class FittedPlant:
         Raises:
             DataError: says how often, and which joint is lightest.
         """
-        _, least, light = scale_inertia(self.model.inertia_matrix(q, self.beta))
+        still = np.zeros((len(q), len(self.model.spec.signals)))
+        _, least, light = scale_inertia(
+            self.model.inertia_matrix(self.extend(q, still, 0), self.beta)
+        )
+        names = [joint.name for joint in self.model.spec.joints]
+        names += [self.model.spec.signals[k].joint for k in self.model.spec.windups]
         if (bad := least < THRESHOLDS.min_inertia_eigenvalue).any():
             raise DataError(
                 f"{self.model.spec.robot}: with the fitted values the inertia matrix is not "
                 f"positive definite in {format_percent(float(np.mean(bad)))} of the postures, most "
-                f"at joint {self.model.spec.joints[light].name}, so no motion follows from a "
+                f"at joint {names[light]}, so no motion follows from a "
                 "torque; expected the inertia of a body; fit with `--method consistent`, or record "
                 "more motion of that joint"
             )
@@ -132,7 +210,7 @@ class FittedPlant:
         """Returns (b, k, n) rows of C."""
         if self.model.spec.closure is None:
             return np.broadcast_to(self._rows, (len(q), *self._rows.shape))
-        return self.model.coupling(q)[:, self._places]
+        return self.robot.coupling(q)[:, self._places]
 
     def advance_signals(
         self, s: np.ndarray, step: np.ndarray, dt: float, motion: Sequence[np.ndarray]

@@ -55,6 +55,8 @@ def simulate_controlled_run(
             f"qc{observation.joints[0].name} ...; expected commanded positions of all joints, "
             "which the controller is to follow; log them, or leave --controller out"
         )
+    if gains is None and model.spec.windups:
+        return None, "joints are elastic, so no controller is looked for"
     if gains is None and not all(joint.actuated for joint in model.spec.joints):
         return None, "a joint has no motor, so no controller is looked for"
     try:
@@ -353,7 +355,8 @@ def simulate_free_run(
     every = np.concatenate([segment.q[segment.whole] for segment in segments])
     plant.check_inertia(every[:: max(1, len(every) // 500)])
     signals = [compute_signals(compiled, segment) for segment in segments]
-    motion_stability = analyse_stability(plant, _collect_motions(observation, segments, signals))
+    motions = _collect_motions(plant, observation, segments, signals)
+    motion_stability = analyse_stability(plant, motions)
     ranges = compute_ranges(every, [joint.unit for joint in observation.joints])
     finest = min(
         THRESHOLDS.max_step,
@@ -420,16 +423,21 @@ def _choose_starts(segments: Sequence[Segment], window: float) -> list[_RunStart
 
 
 def _collect_motions(
-    observation: Observation, segments: Sequence[Segment], signals: Sequence[np.ndarray | None]
+    plant: FittedPlant,
+    observation: Observation,
+    segments: Sequence[Segment],
+    signals: Sequence[np.ndarray | None],
 ) -> list[LoggedMotion]:
     samples = sum(segment.samples for segment in segments)
     motions = []
     for segment, read in zip(segments, signals, strict=True):
         first, stop = _find_whole_range(segment)
         thinned = slice(first, stop, max(1, samples // THRESHOLDS.linearisation_points))
-        q, qd, tau = (values[thinned] for values in (segment.q, segment.qd, segment.tau))
+        s = None if read is None else read[thinned]
+        logged = enumerate((segment.q, segment.qd, segment.tau))
+        q, qd, tau = (plant.extend(values[thinned], s, order) for order, values in logged)
         if len(time := segment.time[thinned]) > 1:
-            log, s = observation.logs[segment.run], None if read is None else read[thinned]
+            log = observation.logs[segment.run]
             motions.append(LoggedMotion(log, time, q, qd, tau, s))
     return motions
 
@@ -466,9 +474,11 @@ class _RunSetup:
                 2 if halved else 1
             )
             path = simulate_batch(self.plant, batch, inner, counts - 1, report_progress)
+            path = path[:, :, : len(self.ranges)]
             for place, i in enumerate(group):
                 simulated[i] = path[: counts[place], place]
-                measured[i] = batch.logged_positions[: counts[place], place]
+                logged = batch.logged_positions[: counts[place], place]
+                measured[i] = logged[:, : len(self.ranges)]
         return simulated, measured
 
     def _build_batch(self, starts: Sequence[_RunStart], length: int, step: float) -> RobotBatch:
@@ -482,14 +492,16 @@ class _RunSetup:
             signals = gather_samples(lambda i: np.asarray(self.signals[i]))
         around = gather_samples(lambda i: self.segments[i].q)
         speeds = np.stack([self.segments[s.segment].qd[s.first] for s in starts])
+        extend, ranges = self.plant.extend, np.full(self.plant.joints, np.inf)
+        ranges[: len(self.ranges)] = np.where(np.isfinite(self.ranges), self.ranges, np.inf)
+        around = extend(around, signals, 0)
         return RobotBatch(
             around[0],
-            speeds,
-            gather_samples(lambda i: self.segments[i].tau),
+            extend(speeds, None if signals is None else signals[0], 1),
+            extend(gather_samples(lambda i: self.segments[i].tau), signals, 2),
             signals,
             step,
-            THRESHOLDS.max_distance_ranges
-            * np.where(np.isfinite(self.ranges), self.ranges, np.inf),
+            THRESHOLDS.max_distance_ranges * ranges,
             around,
         )
 
