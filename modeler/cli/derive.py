@@ -230,7 +230,7 @@ def _describe_ties(model: SymbolicModel) -> list[str]:
 
 def compare_with_lagrange(derivation: Derivation, samples: int = 50) -> float:
     """Returns the largest relative difference of Newton-Euler and Lagrange torques."""
-    model = derivation.model
+    model = derivation.model.rigid
     rng = np.random.default_rng(derivation.base.proof.seed)
     states = draw_random_states(model, samples, rng)
     link = np.array([isinstance(column, LinkColumn) for column in model.columns])

@@ -1,7 +1,7 @@
 """All relations among the columns, and from them the base parameters."""
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, cached_property, partial
 from typing import Any
@@ -355,6 +355,8 @@ def derive_base_parameters(
     Raises:
         DerivationError: a priority pattern matches nothing.
     """
+    if model.windups:
+        model = replace(model, columns=tuple(map(partial(_separate_motor, model), model.columns)))
     samples = max(60, 3 * len(model.columns) // max(1, len(model.robot.coordinates)))
     sample = numeric_rank.draw_sample(model, samples, seed)
     attempt = _Attempt(
@@ -374,6 +376,17 @@ def derive_base_parameters(
         if str(error) != why:
             why += f"; with these, {error}" if model.special else f"; in numbers, {error}"
         return attempt.derive_numeric(why)
+
+
+def _separate_motor(model: SymbolicModel, column: StandardColumn) -> StandardColumn:
+    """The column as one that never groups, if it is of a motor behind which an elastic joint is.
+
+    Such a motor moves by itself, whatever its link does.
+    """
+    rows = {signal.row for signals in model.windups.values() for signal in signals}
+    if isinstance(column, LinkColumn) or column.row not in rows:
+        return column
+    return replace(column, block=EnergyBlock.OWN)
 
 
 @dataclass(frozen=True)

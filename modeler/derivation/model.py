@@ -133,7 +133,6 @@ def build_link_column(prefix: str, row: int, joint: Joint) -> LinkColumn:
 
 def _build_effect_columns(geometry: Geometry, row: int, joint: Joint) -> list[ShaftColumn]:
     effect_columns = []
-    is_elastic = geometry.robot.find_windup(joint.name) is not None
     for effect, form, instance in geometry.robot.find_joint_effects(joint.name):
         for column in form.columns:
             effect_columns.append(
@@ -145,8 +144,7 @@ def _build_effect_columns(geometry: Geometry, row: int, joint: Joint) -> list[Sh
                     kind=column.kind,
                     effect=effect.id,
                     equation=column.equation,
-                    # the motor of an elastic joint moves by itself, whatever its link does
-                    block=EnergyBlock.OWN if is_elastic else column.block,
+                    block=column.block,
                     nonnegative=column.nonnegative,
                     shaft=_derive_shaft(geometry, joint, effect.is_coupled),
                     acts=effect.acts,

@@ -313,6 +313,8 @@ def derive_equation(
         write_columns(model, base, writer)
         tau = "t" if loops else "tau"
         words.append(f"{tau} = phi beta, phi<joint>_<parameter>; what is not listed is 0")
+    if model.windups:
+        words.append("q, qd, qdd of links behind elastic joints are those of the links: q - e")
     words += [*_describe_signals(model), *_describe_laws(model), *loops]
     return Equation(tuple(words), writer.build_sheet(), tuple(loops))
 

@@ -39,7 +39,7 @@ def copy_model(model: SymbolicModel) -> SymbolicModel:
     Lengths, gravity, speeds times these sines are known too: the recursions multiply by them first.
     The graph of `model` is left as it is: emitted code would read these sines otherwise.
     """
-    formula_model = replace(model, graph=Graph())
+    formula_model = replace(model.rigid, graph=Graph())
     graph, geometry = formula_model.graph, formula_model.geometry
     graph.tables |= model.graph.tables
     lengths = {x for row in geometry.rows for x in (row.b, row.d, row.r)} | {*geometry.gravity}
@@ -65,6 +65,7 @@ def get_signal_letters(model: SymbolicModel) -> list[str]:
     """Returns the letters of the signals that effects read besides the motion: t1, T2, z3."""
     kinds = {"time": "t", "temperature": "T", "slip": "z", "direction": "w"}
     kinds |= {"since": "r", "followed": "x", "lag": "z", "bouc_wen": "z"}
+    kinds |= {"windup": "e", "windup_rate": "ed", "windup_acceleration": "edd"}
     return [f"{kinds[signal.kind]}{k + 1}" for k, signal in enumerate(model.signals)]
 
 
