@@ -10,6 +10,7 @@ from typing import Any
 import casadi as ca
 
 from modeler.codegen import control, functions as layout
+from modeler.codegen.advance import build_advance_functions
 from modeler.codegen.control import SMOOTH, Control, find_widths
 from modeler.codegen.functions import CFunction
 from modeler.codegen.thresholds import THRESHOLDS
@@ -108,6 +109,7 @@ def build_casadi_functions(
     if model.closure is not None:
         listed += control.build_smooth_functions(model, beta, arguments)
     else:
+        listed += build_advance_functions(model, base, beta)
         listed += control.build_control_functions(model, base, Control())
     turning = control.list_turning_joints(model, base)
     public = (f for f in listed if not f.internal and f.composed is None)
@@ -119,6 +121,9 @@ def build_casadi_functions(
     composed = [f.role for f in listed if f.composed and f.role != "forward_dynamics"]
     if composed:
         missing = (f"not there: {', '.join(composed)}, which return a status in C",)
+    if model.windups:
+        more = "not there: forward_dynamics, to which elastic joints add motions of their own"
+        return list(functions.values()), (*missing, more)
     is_implicit = control.build_efforts(model, beta).is_implicit
     solve = _build_forward_by_newton if is_implicit else _build_forward
     for head in ("", SMOOTH)[: 1 + bool(turning)]:

@@ -369,6 +369,8 @@ def select_examples(spec: ModuleSpec) -> tuple[str, ...]:
         return ()
     called = {n: {role for role, _ in row["calls"].values()} for n, row in _EXAMPLES.items()}
     examples = tuple(name for name in EXAMPLES if called[name] <= roles)
+    if spec.windups:  # the loops of the others end at the motors
+        return tuple(name for name in examples if "fitted_elastic_feedforward" in called[name])
     # A path in space is followed without the state of friction.
     return tuple(name for name in examples if name != "example_cartesian" or not spec.signals)
 

@@ -83,7 +83,7 @@ def _plan_products(spec: ModuleSpec) -> dict[str, Any]:
 
 
 _DYNAMICS = ("inverse_dynamics", "inertia_matrix", "gravity", "coriolis", "friction")
-_ROLES = (*_DYNAMICS, "base_parameters", "advance")
+_ROLES = (*_DYNAMICS, "base_parameters", "advance", "reset", "elastic_feedforward")
 _OWN = ("sign", "tanh")
 _STANDARD = {"abs": "ABS", "pow": "EXPT"}
 
@@ -134,7 +134,9 @@ def build_structured_text(
         raise EmitError(
             "Structured Text is emitted in LREAL, double precision, only; leave out one of the two"
         )
-    by_role = {f.role: f for f in module.written if f.role in _ROLES}
+    steps = list(map(_remove_status, (*module.written, *fitted)))
+    by_role = {f.role: f for f in steps if f is not None}
+    fitted = [by_role[f.role] for f in fitted if f.role in by_role]
     functions = [*fitted, *(by_role[role] for role in _ROLES if role in by_role)]
     turning = find_widths(spec.prefix, model, fitted)
     prefix, known = make_identifier(spec.prefix), model.geometry.values
@@ -160,6 +162,13 @@ def build_structured_text(
     }
     text = module.render("structured_text.st", **texts)
     return {f"{spec.prefix}.st": text}
+
+
+def _remove_status(function: CFunction) -> CFunction | None:
+    """What a function does whose inputs another one checks, by that one's name; None of a check."""
+    if function.composed is not None and function.composed.kind == "stepped":
+        return None
+    return dataclasses.replace(function, role=function.role.removesuffix("_step"))
 
 
 def _build_function_block(

@@ -1,11 +1,17 @@
-"""Elastic joints: torque, steps and feed-forward against mechanics written out by hand."""
+"""Elastic joints: torques, steps and feed-forward against mechanics written out by hand."""
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 from modeler.api import compare, derive, export, generate, load, simulate
+from modeler.api.checks import prepare_models
 from modeler.core.errors import RobotError, SolutionError
+from modeler.core.options import CompareOptions
 from modeler.robot import Robot
 from modeler.robot.edit import replace_effects
 from modeler.robot.read import parse_robot_text
@@ -131,57 +137,72 @@ def test_at_rest_the_spring_carries_gravity(pendulum, beta):
     assert K * e == pytest.approx(gravity, rel=1e-4)
 
 
+H = 1e-3  # s, of the control loop
+SHAPE = np.polynomial.Polynomial([0, 0, 0, 0, 0, 126, -420, 540, -315, 70])  # smooth to the snap
+
+
+def command(t: float) -> tuple[float, float, float]:
+    """1.2 rad in .8 s: q, qd, qdd of the link."""
+    x, time = min(t / 0.8, 1.0), 0.8
+    return 1.2 * SHAPE(x), 1.2 * SHAPE.deriv()(x) / time, 1.2 * SHAPE.deriv(2)(x) / time**2
+
+
+def move_two_masses(x: np.ndarray, tau: float) -> np.ndarray:
+    """Rates of motor and link, (q, qd) each, written out by hand."""
+    qm, vm, ql, vl = x
+    pull = K * (qm - ql) + D * (vm - vl)
+    gravity = G * (VALUES["MX1"] * np.cos(ql) - VALUES["MY1"] * np.sin(ql))
+    motor = (tau - pull - VALUES["Fv1"] * vm - VALUES["Off1"]) / VALUES["Ia1"]
+    return np.array([vm, motor, vl, (pull - gravity) / VALUES["ZZ1"]])
+
+
 def follow_command(
-    model: CompiledModel, beta: np.ndarray, elastic: list[float] | None, bandwidth: float
+    control: Callable[[np.ndarray, tuple[float, ...]], float], motor: float
 ) -> float:
-    """Rms error of the link, rad, on a command of 1.2 rad in .8 s, the motor in a loop of its own.
-
-    Args:
-        model: the pendulum's.
-        beta: its parameters.
-        elastic: of the feed-forward; None: that of a rigid joint.
-        bandwidth: Hz, of the motor's loop.
-    """
-    h, inner, I, Z = 1e-3, 10, VALUES["Ia1"], VALUES["ZZ1"]
-    values = {"beta": beta, "elastic": elastic or [1e9, 1.0]}
-    w = 2 * np.pi * bandwidth
-    shape = np.polynomial.Polynomial([0, 0, 0, 0, 0, 126, -420, 540, -315, 70])  # smooth to snap
-
-    def command(t: float) -> list[np.ndarray]:
-        x, T = min(t / 0.8, 1.0), 0.8
-        return [
-            np.array([1.2 * shape.deriv(k)(x) / T**k if k else 1.2 * shape(x)]) for k in (0, 1, 2)
-        ]
-
-    def flow(x: np.ndarray, tau: float) -> np.ndarray:
-        qm, vm, ql, vl = x
-        pull = K * (qm - ql) + D * (vm - vl)
-        gravity = G * (VALUES["MX1"] * np.cos(ql) - VALUES["MY1"] * np.sin(ql))
-        motor = (tau - pull - VALUES["Fv1"] * vm - VALUES["Off1"]) / I
-        return np.array([vm, motor, vl, (pull - gravity) / Z])
-
-    s = model.evaluate("reset", q=[0.0], qd=[0.0], qdd=[0.0], **values)[0]
+    """Rms error of the link, rad, of a controller of the motor's q, qd and the command."""
     sag = G * VALUES["MX1"] / K
-    x, errors = np.array([sag if elastic else 0.0, 0.0, 0.0 if elastic else -sag, 0.0]), []
+    x, errors = np.array([motor, 0.0, motor - sag, 0.0]), []
     for k in range(1200):
-        q, qd, qdd = command(k * h)
-        out = model.evaluate("elastic_feedforward", q=q, qd=qd, qdd=qdd, dt=[h], s=s, **values)[0]
-        tau, position, speed, s = out[0], out[1], out[2], out[3:]
-        tau += I * (w * w * (position - x[0]) + 2 * w * (speed - x[1]))
-        for _ in range(inner):
-            a = flow(x, tau)
-            b = flow(x + 0.5 * h / inner * a, tau)
-            x = x + h / inner * b
-        errors.append(x[2] - command((k + 1) * h)[0][0])
+        tau = control(x[:2], command(k * H))
+        for _ in range(10):
+            rate = move_two_masses(x, tau)
+            x = x + H / 10 * move_two_masses(x + H / 20 * rate, tau)
+        errors.append(x[2] - command((k + 1) * H)[0])
     return float(np.sqrt(np.mean(np.square(errors))))
 
 
+@pytest.fixture(scope="module")
+def example(tmp_path_factory) -> Path:
+    """The emitted example of a controller, compiled with all warnings."""
+    folder = tmp_path_factory.mktemp("pendulum")
+    values = "\n".join(f"{name} = {value}" for name, value in VALUES.items())
+    robot = parse_robot_text(f"{PENDULUM}[parameters]\n{values}\n", "pendulum")
+    generate(prepare_models([robot], CompareOptions())[0], folder)
+    flags = "CFLAGS=-O2 -Wall -Wextra -Wpedantic -Werror"
+    subprocess.run(["make", "-s", "check", "examples", flags], cwd=folder, check=True)
+    return folder / "example_elastic"
+
+
 @pytest.mark.parametrize("bandwidth", [2.0, 8.0])
-def test_the_link_follows_ten_times_closer_with_the_feedforward(pendulum, beta, bandwidth):
-    """Two masses integrated by hand, against the rigid feed-forward with the same motor loop."""
-    rigid = follow_command(pendulum, beta, None, bandwidth)
-    elastic = follow_command(pendulum, beta, [K, D], bandwidth)
-    assert elastic < 0.1 * rigid
+def test_the_link_follows_ten_times_closer_with_the_example(pendulum, beta, example, bandwidth):
+    """The emitted example against computed torque of the rigid joint in the same loop."""
+    w, inertia = 2 * np.pi * bandwidth, VALUES["Ia1"] + VALUES["ZZ1"]
+
+    def control_rigidly(state: np.ndarray, wanted: tuple[float, ...]) -> float:
+        q, qd, qdd = wanted
+        tau = pendulum.inverse_dynamics([[q]], [[qd]], [[qdd]], beta, [[0.0] * 3])[0, 0]
+        return tau + inertia * (w * w * (q - state[0]) + 2 * w * (qd - state[1]))
+
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True, "bufsize": 1}
+    with subprocess.Popen([example, str(bandwidth)], **pipes) as program:
+
+        def ask_program(state: np.ndarray, wanted: tuple[float, ...]) -> float:
+            print(*state, *wanted, file=program.stdin)
+            return float(program.stdout.readline())
+
+        elastic = follow_command(ask_program, G * VALUES["MX1"] / K)
+        program.stdin.close()
+    assert elastic < 0.1 * follow_command(control_rigidly, 0.0)
 
 
 def write_arm(joints: dict[str, tuple[float, float]]) -> Robot:
