@@ -103,9 +103,7 @@ def build_module_spec(model: SymbolicModel, base: BaseParameters) -> ModuleSpec:
         functions=(),
         closure=closing,
         signals=tuple(
-            manifest.SignalSpec(
-                signal.kind, joint, format_unit(signal), signal.value, signal.share
-            )
+            manifest.SignalSpec(signal.kind, joint, format_unit(signal), signal.value, signal.share)
             for signal, joint in zip(model.signals, measured, strict=True)
         ),
         inertial_uncertainty=robot.uncertainty.get("inertial"),

@@ -17,7 +17,7 @@ from modeler.regression.chunk import Chunk
 from modeler.regression.consistency import Contradiction, DerivativeCheck
 from modeler.regression.faults import ALWAYS, Defect, Defects, find_column
 from modeler.regression.log import Log, RawSegment, SplitReport
-from modeler.regression.motion import CAUSES, ChosenProcessing
+from modeler.regression.motion import CAUSES, UNSETTLED, ChosenProcessing
 from modeler.regression.motion_noise import Bands, MotionNoise, build_bands
 from modeler.regression.prepare import PreparedLog
 from modeler.regression.read import ChannelRanges, cut_rows
@@ -410,10 +410,14 @@ class DataReport(Result):
     def collect_notes(self) -> list[str]:
         """Returns what looks like a defect of a log and is used as logged, one sentence each."""
         every = [(log.name, damage) for log in self.logs for damage in log.damages]
-        pushes = [
-            f"note: {log.name}: {line}" for log in self.logs for line in log.describe_pushes()
+        notes = [f"note: {log.name}: {line}" for log in self.logs for line in log.describe_pushes()]
+        notes += [
+            f"note: joint {joint.name}: {count} samples left out at the start of motions, where "
+            "the state of its bristle or cable is unknown"
+            for joint in self.joints
+            if (count := joint.lost.get(UNSETTLED, 0))
         ]
-        return pushes + [f"note: {name}: {one.line}" for name, one in every if not one.is_mended]
+        return notes + [f"note: {name}: {one.line}" for name, one in every if not one.is_mended]
 
     def format_lines(self) -> list[str]:
         """Returns lines of text for people."""

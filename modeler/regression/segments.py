@@ -264,9 +264,13 @@ def count_unsettled_samples(q: np.ndarray, distance: float, share: float) -> int
     """Returns how many samples of positions q (n,) the state at the first of them still counts in.
 
     Nobody knows it: until z from -1 and z from 1 have come together; a state that is not forgotten
-    within a share of the samples does not count from there on.
+    within a share of the whole travel does not count from there on.
     """
-    first = q[: round(THRESHOLDS.max_unsettled_share * len(q))], distance, share
+    travel = np.cumsum(np.abs(np.diff(q, prepend=q[:1])))
+    most = int(np.searchsorted(travel, THRESHOLDS.max_unsettled_share * travel[-1]))
+    if not most:
+        return 0
+    first = q[:most], distance, share
     low, high = (compute_bristle_state(*first, start) for start in (-1.0, 1.0))
     unsettled = np.flatnonzero(high - low > THRESHOLDS.max_state_doubt)
     return int(unsettled[-1]) + 1 if unsettled.size else 0

@@ -263,7 +263,7 @@ class Thresholds:
     max_state_doubt: float = 0.05
     """Of the state of a bristle, which is between -1 and 1: what its start may still make of it."""
     max_unsettled_share: float = 0.25
-    """Of a segment: no more is left out for the state at its start. No study."""
+    """Of the travel in a segment: no more is left out for the state at its start. No study."""
 
 
 THRESHOLDS = Thresholds()

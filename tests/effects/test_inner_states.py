@@ -182,3 +182,17 @@ def test_the_c_steps_a_loop_as_the_log_is_read(share: float, precision) -> None:
             once = compiled.advance([0.0, moved, 0.0], 0.002, [start])
             assert_allclose(once, along[-1], atol=exact)
         assert compiled.advance([1.0, 0.0, 1.0], 0.002, [start]) == pytest.approx(start, abs=1e-7)
+
+
+@pytest.mark.parametrize("share", [1.0, 0.5, 0.3])
+def test_a_state_counts_once_its_start_is_forgotten(share: float) -> None:
+    """From there on no start makes more than 0.05 of a difference; and never much later."""
+    q, distance = strokes(0.001 * np.arange(3000))[0], 0.02
+    count = segments.count_unsettled_samples(q, distance, share)
+    ends = [segments.compute_bristle_state(q, distance, share, z) for z in (-1.0, -0.3, 0.6, 1.0)]
+    spread = np.ptp(ends, axis=0)
+    assert 200 < count < 400 and spread[count - 1] > 0.05 and spread[count:].max() <= 0.05
+    # One that is hardly forgotten at all costs a quarter of the travel at most.
+    most, travel = segments.count_unsettled_samples(q, 5.0, share), np.abs(np.diff(q))
+    assert 0.24 < travel[: most - 1].sum() / travel.sum() < 0.26
+    assert segments.count_unsettled_samples(0.0 * q, distance, share) == 0

@@ -15,6 +15,8 @@ from modeler.estimation.model_file import load_model
 from modeler.regression.log import Log
 from modeler.regression.observation import compute_model_torque
 from modeler.runtime.model import load_module as load_compiled
+from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
+from tests.chain import chain_of
 from tests.diagnose.conftest import Case, motion, on_joint, spring, two
 from tests.improve.conftest import Mended
 
@@ -44,6 +46,47 @@ def test_presliding_has_a_state_that_the_c_advances(case: Case) -> None:
     assert [s.kind for s in better.spec.signals] == ["slip"]
     after = compiled.advance([0.0, 1e9, 0.0], 0.001, [-1.0])
     np.testing.assert_allclose(after, [1.0])  # far travel turns the bristle wholly
+
+
+HYSTERESIS = {
+    "presliding": {"Fz2": "level", "Fzd2": "damping", "d": "distance"},
+    "cable_hysteresis": {"Fh2": "level", "d": "width", "b": ""},
+}
+"""Parameters and shapes of the effect -> what they are called in the simulator."""
+SIMULATED_SHARE = 0.7
+
+
+@pytest.mark.parametrize("effect", HYSTERESIS)
+def test_the_start_of_a_bristle_is_unknown_and_does_not_spoil_its_values(effect: str) -> None:
+    """Logs that begin in the midst of the motion of another machine, by physics of its own."""
+    arm, hidden = chain_of("demo-arm"), (parse_hidden_effect(f"{effect}@2"),)
+    settings = dict(duration=22.0, rate=1000.0, parameter_seed=7, hidden=hidden)
+    machine = simulate(arm.derivation.robot, SimulationSettings(seed=1, **settings)).truth
+    truth = {"": SIMULATED_SHARE, **machine.hidden_effects[0].values}
+    train, holdout = (late(arm.log(f"{seed}", seed=seed, **settings)) for seed in (5, 6))
+    logs, model = LogSplit([train], [holdout]), arm.fit([train])
+    better = add_effect(model, arm.compiled, effect, "2", logs)
+    step = better.history[-1]
+    before, after = step.joints["2"]
+    assert step.is_improvement and after < 0.0016 and before > 5.0 * after
+    deviations = {p.name: p.sigma for p in better.fit.parameters} | step.nonlinear_sigmas
+    estimates = {p.name: p.value for p in better.fit.parameters} | step.nonlinear_parameters
+    ends = {p.name: p.interval for p in better.fit.parameters} | step.nonlinear_intervals
+    for name, key in HYSTERESIS[effect].items():
+        value, sigma, true = estimates[name], deviations[name], truth[key]
+        assert abs(value - true) < 3.0 * sigma < 0.2 * true, (name, value, sigma, true)
+        assert ends[name][0] < value < ends[name][1]
+    rows = build_rows(load_compiled(better.spec, better.sources), logs, better.processing)
+    (note,) = rows.fit_observation.report.collect_notes()
+    assert note.startswith("note: joint 2: ") and "state of its bristle or cable" in note
+
+
+def late(log: Log) -> Log:
+    """The log without its first two seconds."""
+    k = int(np.searchsorted(log.time, 2.0))
+    arrays = {name: getattr(log, name) for name in ("time", "q", "tau", "qd", "qdd", "commanded")}
+    cut = {name: values[k:] for name, values in arrays.items() if values is not None}
+    return replace(log, **cut, extra={}, segment=None, channels={})
 
 
 @pytest.mark.rotating("effects are added to simulated runs")
