@@ -85,7 +85,8 @@ def build_fitted_functions(
     if model.closure is None:
         arguments = layout.make_arguments(model.robot.free_joints, model, base)
         stated = [s.value for order in (0, 1) for s in (w[order] for w in model.windups.values())]
-        elastic = [model.graph.constant(Fraction(repr(value))) for value in stated]
+        sizes = (Fraction(repr(float(value))) for value in fitted.elastic or stated)
+        elastic = [model.graph.constant(value) for value in sizes]
         twins = [*layout.build_dynamics_functions(model, values, arguments)]
         twins += build_advance_functions(model, base, values, elastic) if elastic else ()
         return tuple(remove_beta(f, FITTED_UNIT) for f in twins)

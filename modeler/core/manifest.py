@@ -236,6 +236,7 @@ class FittedSpec(ShortRepr):
     widths: tuple[str, ...] = ()  # macros, one per joint whose friction leaps
     functions: tuple[FunctionSpec, ...] = ()
     code: str = ""  # digest of the fitted unit, its signature left out
+    elastic: tuple[float, ...] = ()  # stiffnesses, then dampings; (): those of the robot file
     signature: str = ""  # of all that, and of the robot: what <prefix>_fitted_signature() answers
 
 
@@ -377,6 +378,8 @@ class ModuleSpec(ShortRepr):
         for name in ("fitted", "control", "origin", "units"):
             if entries[name] is None:
                 del entries[name]
+        if self.fitted is not None and not self.fitted.elastic:
+            del entries["fitted"]["elastic"]
         if self.precision == "double":
             del entries["precision"]
         if not self.laws:
