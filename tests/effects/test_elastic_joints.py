@@ -9,13 +9,14 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from modeler.api import compare, derive, export, generate, load, simulate
-from modeler.api.checks import prepare_models
+from modeler.api.checks import prepare_models, simulate_positions
 from modeler.core.errors import RobotError, SolutionError
 from modeler.core.options import CompareOptions
 from modeler.robot import Robot
 from modeler.robot.edit import replace_effects
 from modeler.robot.read import parse_robot_text
 from modeler.runtime.model import CompiledModel
+from modeler.validation import FreeRunSettings
 from tests.modules import loaded
 
 PENDULUM = """
@@ -273,6 +274,21 @@ def test_a_log_of_two_masses_is_predicted_to_the_noise(tmp_path):
     simulate(robot, log, duration=8.0, seed=2)
     errors = [compare(each, [log]).joints[1].relative_error for each in (robot, rigid)]
     assert errors[0] < 0.002 and errors[1] > 3.0 * errors[0]
+
+
+def test_a_free_run_keeps_motor_and_link_apart(tmp_path):
+    """Under the logged torques the arm stays five times closer to the log than a rigid one."""
+    log = tmp_path / "log.parquet"
+    simulate(write_arm({"2": (3000.0, 4.0)}), log, duration=2.5, seed=2)
+    errors = []
+    for elastic in (True, False):
+        robot = write_arm({"2": (3000.0, 4.0)} if elastic else {})
+        settings = FreeRunSettings(window=0.2)
+        run = simulate_positions(robot, [log], CompareOptions(), settings)[0]
+        apart = np.concatenate([path.simulated - path.measured for path in run.paths])
+        errors.append(np.sqrt(np.mean(apart[:, 1] ** 2)))
+        assert run.numerical < 1e-4
+    assert errors[0] < errors[1] / 5.0
 
 
 REFUSED = {
