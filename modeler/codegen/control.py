@@ -170,9 +170,16 @@ def format_fitted_texts(
         comma = "," if len(lines) + 1 < len(fitted.parameters) else " "
         about = layout.format_comment_line(f"{place} [{parameter.unit}], {sure}")
         lines.append(f"    {literal(parameter.value):>24}{comma} /* {about} */")
+    sizes, count = fitted.elastic or spec.elastic, len(spec.windups)
+    springs = [
+        f"Elastic joint {spec.signals[k].joint}: stiffness {sizes[i]:.6g}, damping "
+        f"{sizes[count + i]:.6g}."
+        for i, k in enumerate(spec.windups)
+    ]
+    remarks = [f"{warning}{verdict}", *doubts, *springs, *fitted.notes]
     return {
         "widths": widths,
-        "remarks": layout.format_comment_lines([f"{warning}{verdict}", *doubts, *fitted.notes]),
+        "remarks": layout.format_comment_lines(remarks),
         "effort": " or ".join(dict.fromkeys(joint.effort_unit for joint in spec.joints)),
         "lines": lines,
         "gains": layout.wrap_names([literal(gain) for gain in fitted.gains]),

@@ -397,6 +397,22 @@ class Robot(Result):
                 return values[state.parameter], values[state.damping]
         return None
 
+    def set_windups(self, sizes: Sequence[float]) -> "Robot":
+        """Returns the robot with these stiffnesses, then dampings, of its elastic joints in order."""
+        joints = [j.name for j in self.moving_joints if self.find_windup(j.name) is not None]
+        K, D = sizes[: len(joints)], sizes[len(joints) :]
+        values = {joint: {"K": k, "D": d} for joint, k, d in zip(joints, K, D, strict=True)}
+        uses = []
+        for use in self.effects:
+            effect = find_effect(use.effect, self.catalogue)
+            if effect is not None and effect.usual_form.is_windup:
+                changed = (
+                    replace(at, nonlinear_parameters=values[at.joint]) for at in use.instances
+                )
+                use = replace(use, instances=tuple(changed))
+            uses.append(use)
+        return replace(self, effects=tuple(uses))
+
     def has_effect(self, effect: str, joint: str) -> bool:
         """Returns True if that joint carries that effect."""
         return any(use.effect == effect and joint in use.joints for use in self.effects)

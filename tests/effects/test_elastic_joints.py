@@ -259,6 +259,12 @@ def test_base_and_standard_torques_of_elastic_joints_agree():
     assert set(names) == {*rigid, "Ia2"}
 
 
+def test_other_stiffnesses_are_set_in_the_order_of_the_table():
+    arm = write_arm(ARM).set_windups([1.0, 2.0, 3.0, 4.0])
+    assert (arm.find_windup("2"), arm.find_windup("3")) == ((1.0, 3.0), (2.0, 4.0))
+    assert arm.find_windup("1") is None and derive(arm).model.windups.keys() == {1, 2}
+
+
 @pytest.mark.slow
 def test_a_prismatic_joint_is_elastic_too():
     text = PENDULUM.replace('"theta"', '"sigma", "theta", "r"').replace('"q1"', '1, 0, "q1"')
