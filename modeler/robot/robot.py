@@ -1,7 +1,7 @@
 """The robot as the user states it: data, no derivation."""
 
 import enum
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -398,7 +398,7 @@ class Robot(Result):
         return None
 
     def set_windups(self, sizes: Sequence[float]) -> "Robot":
-        """Returns the robot with these stiffnesses, then dampings, of its elastic joints in order."""
+        """Returns the robot with these stiffnesses, then dampings, of its elastic joints."""
         joints = [j.name for j in self.moving_joints if self.find_windup(j.name) is not None]
         K, D = sizes[: len(joints)], sizes[len(joints) :]
         values = {joint: {"K": k, "D": d} for joint, k, d in zip(joints, K, D, strict=True)}
