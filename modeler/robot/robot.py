@@ -409,7 +409,7 @@ class Robot(Result):
                 changed = (
                     replace(at, nonlinear_parameters=values[at.joint]) for at in use.instances
                 )
-                use = replace(use, instances=tuple(changed))
+                use = replace(use, stated_instances=tuple(changed))
             uses.append(use)
         return replace(self, effects=tuple(uses))
 
