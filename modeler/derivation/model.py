@@ -264,7 +264,7 @@ def map_column_signals(column: ShaftColumn) -> dict[str, Signal]:
             raise DerivationError(f"{column.name}: its inner state has no form in C")
         shapes, follows = column.nonlinear_parameters, memory.lagged_input
         shape_items = () if follows is None else tuple(sorted(shapes.items()))
-        shape, share = shapes[memory.parameter], memory.get_share(shapes)
+        shape, share = shapes[memory.parameter], shapes.get(memory.share, 1.0)
         signals["z"] = Signal(memory.kind, column.row, shape, follows, shape_items, share)
     return signals
 

@@ -26,7 +26,7 @@ from modeler.diagnosis.added_model import (
     read_catalogue,
 )
 from modeler.diagnosis.diagnosis import find_fixed_parameters
-from modeler.diagnosis.events import detect_other_push, detect_push, mask_unsettled, mask_window
+from modeler.diagnosis.events import detect_pushes, leave_out
 from modeler.diagnosis.generation import estimate_instrumental
 from modeler.diagnosis.learn import ANY_LAW, LawRequest, LearnedLaw, learn_law
 from modeler.diagnosis.messages import format_location
@@ -37,7 +37,7 @@ from modeler.diagnosis.state import SearchData, State, analyse_logs, build_state
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, EffectTarget, find_effect
 from modeler.estimation import Addition, IdentifiedModel, collect_provenance, identify, judge_fit
-from modeler.regression import Log, Observation
+from modeler.regression import Observation
 from modeler.robot import join_names, parse_robot_text, suggest_name
 from modeler.runtime import CompiledModel, load_module
 
@@ -393,8 +393,8 @@ def _select_candidate(
         delay = estimate_instrumental(state, candidate)[0]
         return result.FittedCandidate(candidate, delay, state, visible)
     later = extend_state(state, candidate)  # a wrong gain bends the model whose torques it scales
-    if (memory := candidate.form.internal_state) is not None and memory.is_hysteresis:
-        state = build_state(mask_unsettled(state.data, [candidate]), (), state.beta)
+    if candidate.loop:
+        state = build_state(leave_out(state.data, None, [candidate]), (), state.beta)
         candidate = polish_nonlinear_parameters(extend_state(state, candidate), 0)
         later = extend_state(state, candidate)
     if is_gain(candidate):
@@ -430,9 +430,9 @@ def _append_step(
 ) -> _FittedModel:
     """The model after a change, with that as a step of its history."""
     history = before.model.history or (_build_history_step(before, score, 0),)
-    step, changed = _build_history_step(after, score, 1), score.changed_joints
+    changed, notes = score.changed_joints, {"is_improvement": score.is_better, **notes}
+    step = _build_history_step(after, score, 1)
     step = replace(step, joints=score.errors, changed_joints=changed, **notes)
-    step = replace(step, is_improvement=score.is_better)
     return after.replace_history((*history, step))
 
 
@@ -442,44 +442,29 @@ def _leave_out_pushes(before: _FittedModel, effect: Effect) -> tuple[_FittedMode
     Both are judged on the rows that are left; held-out logs have windows of their own.
     """
     state, model, logs = _build_state(before), before.model, before.rows.logs
-    window, windows = detect_push(state, state.data), list[tuple[Log, str, result.PushWindow]]()
-    if window is not None and window.change is not None:
-        windows.append((logs.training[window.log], "the fit", window))
-        state = build_state(mask_window(state.data, window), (), state.beta)
+    data, other, processing = state.data, None, model.processing
     if logs.held_out:
-        used = state.data.observation.report.processing
+        used = data.observation.report.processing
         seen = observe_in_band(before.rows.compiled, logs.held_out, used)
-        window = detect_other_push(state, replace(state.data, observation=seen))
-        if window is not None:
-            windows.append((logs.held_out[window.log], "judging", window))
-    if not windows:
+        other = replace(data, observation=seen)
+    window, held_out = detect_pushes(state, data, other)
+    for some, push in ((logs.training, window), (logs.held_out, held_out)):
+        if push is not None and push.change is not None:
+            processing = processing.add_push(some[push.log], *push.span)
+    if processing is model.processing:
         raise DataError(
             f"{effect.id}: no torque acts once in these logs and stands out from what the model "
             "leaves elsewhere; nothing is left out"
         )
-    processing, left_out = model.processing, list[str]()
-    for log, what, window in windows:
-        processing = processing.add_push(log, *window.span)
-        left_out.append(_describe_window(log, what, *window.span))
     build = partial(build_rows, logs=logs, processing=processing)
     after = _fit_robot_file(model, model.robot_text, build)
     rest = replace(before, rows=after.rows)
     first, last = rest.compute_held_out_residuals(False), after.compute_held_out_residuals(True)
-    score = scoring.score_change(first, last)
-    notes = {"effect": effect.id, "left_out": tuple(left_out)}
-    after = _append_step(before, after, score, **notes)
-    if len(windows) == 1 and windows[0][1] == "judging":  # the fit is as it was
-        *steps, step = after.model.history
-        after = after.replace_history((*steps, replace(step, is_improvement=True)))
-    return after, score
-
-
-def _describe_window(log: Log, what: str, start: float, end: float) -> str:
-    first, last = np.searchsorted(log.time, [start, end])
-    return (
-        f"{log.name}: {start:.2f} to {end:.2f} s, rows {first + 1} to {last} of {log.rows}, are "
-        f"left out of {what}: something pushed on the robot"
-    )
+    score, reports = scoring.score_change(first, last), [x.report for x in after.rows.observations]
+    said = tuple(line for report in reports for line in report.describe_pushes())
+    falls = score.is_better or window is None  # then the fit is as it was
+    notes = {"effect": effect.id, "left_out": said, "is_improvement": falls}
+    return _append_step(before, after, score, **notes), score
 
 
 def _build_history_step(fitted: _FittedModel, score: scoring.Score, side: int) -> Addition:

@@ -124,6 +124,14 @@ class Candidate(ShortRepr):
         """Lists the names of its columns, as in a robot file."""
         return [f"{column.prefix}{self.joint or ''}" for column in self.form.columns]
 
+    @property
+    def loop(self) -> tuple[float, ...]:
+        """Returns the travel and the share of the state of a bristle or cable; else nothing."""
+        memory, values = self.form.internal_state, self.nonlinear_parameters
+        if memory is None or memory.kind not in ("slip", "bouc_wen"):
+            return ()
+        return values[memory.parameter], values.get(memory.share, 1.0)
+
     def can_refine(self, shape: NonlinearParameter) -> bool:
         """Returns whether values off the grid are possible; of waves, if no grid gave the order."""
         if shape.scale == "waves":

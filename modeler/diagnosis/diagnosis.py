@@ -162,14 +162,14 @@ def diagnose(
         bands = search_bands()
     pushes = [e for e in data.stated_effects.catalogue if e.acts is EffectTarget.WINDOW]
     may_push = [effect for effect in pushes if effect.id not in without]
-    window = None
-    if may_push:
-        window, held_push = detect_pushes(bands[-1].search, data, other)
+    window, last = None, bands[-1].search
+    if may_push and last.last.ranked:
+        window, held_push = detect_pushes(last.end, last.start.data, other)
     if other is not None and held_push is not None:
         where = held_push.describe(other.observation.logs)
         faults += (DataWarning(f"held out: {where}; left out of the errors"),)
-    steps = [step.candidate for band in bands for step in band.search.steps]
-    named = [one for one in steps if (m := one.form.internal_state) and m.is_hysteresis]
+    steps = (step for band in bands for step in band.search.steps)
+    named = [step.candidate for step in steps if step.candidate.loop]
     if window is not None or held_push is not None or named:
         data = leave_out(data, window, named)
         beyond = beyond and leave_out(beyond, window, named)

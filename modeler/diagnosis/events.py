@@ -43,41 +43,33 @@ class _WindowEnergies:
 
 
 def detect_pushes(
-    search: Search, data: SearchData, other: SearchData | None
+    end: State, data: SearchData, other: SearchData | None
 ) -> tuple[PushWindow | None, PushWindow | None]:
-    """Detects when something pushed in the logs of a search, and in the held-out ones."""
-    window = detect_push(search.end, search.start.data) if search.last.ranked else None
-    if other is None:
-        return window, None
-    rest = data if window is None else mask_window(data, window)
-    held_out = detect_other_push(build_state(rest, search.end.picks, search.end.beta), other)
-    if window is not None and held_out is not None:
-        window = replace(window, held_out_push=held_out.describe(other.observation.logs))
-    return window, held_out
+    """Detects when something pushed in logs, and in held-out ones.
 
-
-def detect_push(end: State, data: SearchData) -> PushWindow | None:
-    """Detects when something pushed; with its first part left out of the fit, more of it may show.
+    With its first part left out of the fit, more of it may show.
 
     Args:
         end: fitted to the logs.
         data: they.
+        other: held-out logs.
     """
+
+    def fit(rest: SearchData) -> State:
+        return build_state(rest, end.picks, end.beta)
+
     # a gear may have so much play that one of its impacts looks like a push
     most, joints = THRESHOLDS.min_burst_ratio, range(end.rows.joint_count)
     rattles = any(compute_burst_ratio(end, j) > most for j in joints)
-    if rattles:
-        return None
-    return _find_whole_push(end, data, lambda rest: build_state(rest, end.picks, end.beta))
-
-
-def detect_other_push(state: State, other: SearchData) -> PushWindow | None:
-    """Detects when something pushed in logs that a state was not fitted to.
-
-    None also of what comes only once, but is no steady torque.
-    """
-    window = _find_whole_push(state, other, lambda rest: state)
-    return window if window is not None and window.change is not None else None
+    window = None if rattles else _find_whole_push(end, data, fit)
+    if other is None:
+        return window, None
+    state = end if window is None else fit(leave_out(data, window))
+    held_out = _find_whole_push(state, other, lambda rest: state)
+    held_out = held_out if held_out is not None and held_out.change is not None else None
+    if window is not None and held_out is not None:
+        window = replace(window, held_out_push=held_out.describe(other.observation.logs))
+    return window, held_out
 
 
 def _find_whole_push(
@@ -87,7 +79,7 @@ def _find_whole_push(
     if window is None:
         return None
     while more is not None:
-        window, rest = more, mask_window(data, more)
+        window, rest = more, leave_out(data, more)
         state = refit(rest)
         later = find_contact_window(compute_residuals(state, rest))
         more = window.merge_part(later) if later is not None else None
@@ -95,34 +87,25 @@ def _find_whole_push(
 
 
 def leave_out(
-    data: SearchData, window: PushWindow | None, candidates: Iterable[Candidate]
+    data: SearchData, window: PushWindow | None, candidates: Iterable[Candidate] = ()
 ) -> SearchData:
-    """Returns the data without a push, and without unknown states of bristles and cables."""
-    rest = mask_unsettled(data, candidates)
-    return rest if window is None else mask_window(rest, window)
+    """Returns the data without the rows of a push, and a little around it.
 
-
-def mask_window(data: SearchData, window: PushWindow) -> SearchData:
-    """Returns the data without the rows of a window, and a little around it."""
-    observation, (start, end) = data.observation, window.span
-    hit = (observation.run == window.log) & (observation.time > start) & (observation.time < end)
-    return replace(data, observation=observation.select_rows(observation.used & ~hit[:, None]))
-
-
-def mask_unsettled(data: SearchData, candidates: Iterable[Candidate]) -> SearchData:
-    """Returns the data without rows in which the state of a bristle or cable is unknown yet."""
+    Also without those in which the state of bristles and cables is unknown yet.
+    """
     observation, used = data.observation, data.observation.used.copy()
+    if window is not None:
+        start, end = window.span
+        hit = (observation.time > start) & (observation.time < end)
+        used[hit & (observation.run == window.log)] = False
+    ends = np.cumsum([len(part.used) for part in observation.stretches])[:-1]
     for candidate in candidates:
-        memory, values = candidate.form.internal_state, candidate.nonlinear_parameters
-        if memory is None or not memory.is_hysteresis:
-            continue
-        end, distance, share = 0, values[memory.parameter], memory.get_share(values)
-        for part in observation.stretches:
-            rows, end = slice(end, end + len(part.used)), end + len(part.used)
-            q = part.segment.q[:, candidate.index]
-            count = regression.count_unsettled_samples(q, distance, share)
-            early = observation.time[rows] < part.segment.time[min(count, len(q) - 1)]
-            used[rows, candidate.index] &= ~early
+        j, loop = candidate.index, candidate.loop
+        by_part = zip(np.split(used, ends), np.split(observation.time, ends), strict=True)
+        for part, (rows, time) in zip(observation.stretches, by_part, strict=True):
+            q = part.segment.q[:, j]
+            count = regression.count_unsettled_samples(q, *loop)
+            rows[time < part.segment.time[min(count, len(q) - 1)], j] = False
     return replace(data, observation=observation.select_rows(used))
 
 

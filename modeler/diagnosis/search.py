@@ -543,7 +543,10 @@ class _Pruning:
             if step not in which:
                 continue
             whole, candidate = self.build_state(refined), step.candidate
-            reduction = build_reduction_function(whole, len(self.prior_picks) + i)
+            place = len(self.prior_picks) + i
+            if candidate.loop:
+                candidate = polish_nonlinear_parameters(whole, place)
+            reduction = build_reduction_function(whole, place)
             for _ in range(THRESHOLDS.refinement_turns):  # each begins with large steps again
                 last = candidate
                 candidate = refine_nonlinear_parameters(whole, candidate, reduction)
@@ -553,17 +556,6 @@ class _Pruning:
             refined[i] = replace(step, score=score)
             self.tick()
         return refined
-
-    def polish(self, steps: Sequence[SearchStep]) -> list[SearchStep]:
-        """Takes the shapes of bristles and cables to the least squares of all rows."""
-        polished = list(steps)
-        for i, step in enumerate(steps):
-            memory = step.candidate.form.internal_state
-            if memory is not None and memory.is_hysteresis:
-                place = len(self.prior_picks) + i
-                candidate = polish_nonlinear_parameters(self.build_state(polished), place)
-                polished[i] = replace(step, score=self.score_step(polished, step, candidate))
-        return polished
 
 
 def _is_free(step: SearchStep) -> bool:
@@ -582,9 +574,9 @@ def _prune_steps(
     needed = pruning.drop_unneeded(steps)
     while (fewer := pruning.drop_weakest(needed)) is not None:
         needed = fewer
-    if len(needed) + len(prior_picks) > 1:
-        needed = pruning.refine(needed, [step for step in needed if _is_free(step)])
-    needed = pruning.polish(needed)
+    several = len(needed) + len(prior_picks) > 1
+    which = [s for s in needed if (several and _is_free(s)) or s.candidate.loop]
+    needed = pruning.refine(needed, which)
     picks = [*prior_picks, *(step.candidate for step in needed)]
     unchanged = picks == list(pruning.state.picks)
     return needed, pruning.state if unchanged else pruning.build_state(needed)

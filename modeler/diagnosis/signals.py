@@ -176,9 +176,9 @@ class Signals(ShortRepr):
         """Computes inner state z (n,) on joint j from parameters and what a lag follows (n,)."""
         if memory.kind == "lag":
             return apply_lag(followed, self.step, shapes[memory.parameter])
-        if memory.is_hysteresis:
-            distance, share = shapes[memory.parameter], memory.get_share(shapes)
-            return regression.compute_bristle_state(self.q[:, j], distance, share)
+        if memory.kind in ("slip", "bouc_wen"):
+            loop = shapes[memory.parameter], shapes.get(memory.share, 1.0)
+            return regression.compute_bristle_state(self.q[:, j], *loop)
         frequency, damping = shapes[memory.parameter], shapes[memory.damping]
         return simulate_resonance(self.load[:, j], self.step, frequency, damping)
 

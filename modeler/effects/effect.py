@@ -129,15 +129,6 @@ class InternalState:
     lagged_input: Expression | None = None
     share: str = ""
 
-    @property
-    def is_hysteresis(self) -> bool:
-        """Returns True of a bristle or cable, whose state follows the travel alone."""
-        return self.kind in ("slip", "bouc_wen")
-
-    def get_share(self, values: Mapping[str, float]) -> float:
-        """Returns b of the loop at those values; 1, Dahl's, where it has none."""
-        return values[self.share] if self.share else 1.0
-
 
 @dataclass(frozen=True)
 class EffectColumn(ShortRepr):

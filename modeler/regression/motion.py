@@ -1,7 +1,7 @@
 """Choices of the processing; velocities and accelerations of a piece, and its usable samples."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, get_args
@@ -83,8 +83,6 @@ class Processing(ShortRepr):
             raise DataError(f"speed_floors is {self.speed_floors}; {expected}")
         if not isinstance(self.repairs, Mapping | None):
             raise DataError(f"repairs is {self.repairs}; expected a ratio by column and defect")
-        if not isinstance(self.pushes, Mapping | None):
-            raise DataError(f"pushes is {self.pushes}; expected windows, s, by log")
         if self.derivatives not in get_args(Derivatives):
             possible = ", ".join(get_args(Derivatives))
             raise DataError(f'derivatives is "{self.derivatives}"; expected {possible}')
@@ -299,24 +297,20 @@ def _classify_samples(
     periods = THRESHOLDS.short_bridge_periods
     few = min(THRESHOLDS.short_bridge, int(periods / (cutoff * piece.step)) - 1) if cutoff else 0
     bent = select_long_runs(piece.bridged, few) if few > 0 else piece.bridged
+    inside = [(piece.time > start) & (piece.time < end) for start, end in piece.pushes]
+    pushed = np.any([np.zeros(len(whole), dtype=bool), *inside], axis=0)
     flags = {
         EDGE: ~whole[:, None],
         MISSING: piece.bridged[:, None] | ~piece.valid,
         BRIDGES: dilate_flags(bent, edge)[:, None],
         CONTRADICTED: dilate_flags(piece.contradicted, edge)[:, None],
         SATURATED: piece.clipped & (not keep_saturated),
-        PUSHED: find_samples_within(piece.time, piece.pushes)[:, None],
+        PUSHED: pushed[:, None],
     }
     cause = np.full(piece.valid.shape, -1, dtype=np.int8)
     for name, flagged in flags.items():
         cause[(cause < 0) & flagged] = CAUSES.index(name)
     return cause
-
-
-def find_samples_within(time: np.ndarray, windows: Sequence[tuple[float, float]]) -> np.ndarray:
-    """Returns (n,) True of the times (n,), s, that lie in one of the windows, s."""
-    inside = [(time > start) & (time < end) for start, end in windows]
-    return np.any([np.zeros(len(time), dtype=bool), *inside], axis=0)
 
 
 def dilate_flags(flags: np.ndarray, reach: int) -> np.ndarray:

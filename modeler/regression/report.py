@@ -299,14 +299,6 @@ class LogReport(ShortRepr):
         loops = "the loops cannot be closed here; not used, but check positions and geometry"
         return marks + [Mark("open", "all joints", t, t, loops) for t in self.open_times]
 
-    def describe_pushes(self) -> list[str]:
-        """Returns a sentence on each window that is left out, as something pushed there."""
-        return [
-            f"{start:.2f} to {end:.2f} s ({round((end - start) * self.rate)} rows) left out: "
-            "something pushed on the robot"
-            for start, end in self.pushes
-        ]
-
     def _describe_open_loops(self) -> list[str]:
         """Returns a sentence where loops cannot be closed."""
         if not self.open_times:
@@ -407,10 +399,20 @@ class DataReport(Result):
         """Returns what is wrong with the measurements of all logs, one sentence each."""
         return [line for log in self.logs for line in log.collect_warnings()]
 
+    def describe_pushes(self) -> list[str]:
+        """Returns a sentence on each window that is left out, as something pushed there."""
+        lines = []
+        for log in self.logs:
+            for push in log.pushes:
+                first, last = (round((time - log.span[0]) * log.rate) + 1 for time in push)
+                rows = f"{push[0]:.2f} to {push[1]:.2f} s, rows {first} to {last} of {log.rows}"
+                lines.append(f"{log.name}: {rows}, left out: something pushed on the robot")
+        return lines
+
     def collect_notes(self) -> list[str]:
         """Returns what looks like a defect of a log and is used as logged, one sentence each."""
         every = [(log.name, damage) for log in self.logs for damage in log.damages]
-        notes = [f"note: {log.name}: {line}" for log in self.logs for line in log.describe_pushes()]
+        notes = [f"note: {line}" for line in self.describe_pushes()]
         notes += [
             f"note: joint {joint.name}: {count} samples left out at the start of motions, where "
             "the state of its bristle or cable is unknown"

@@ -67,9 +67,7 @@ def build_axis(state: State, pick: Candidate, j: int, effect_torque: np.ndarray)
         state.rows.filter_samples(j, [_VALUES["v"](pick, s, j) for s in state.rows.signals])
     )
     # where the effect turns with the motion and the axis does not say which way it goes
-    memory = pick.form.internal_state
-    slips = memory is not None and memory.is_hysteresis
-    turns = shows not in ("v", "a", "waves") and ("v" in pick.form.names or slips)
+    turns = shows not in ("v", "a", "waves") and ("v" in pick.form.names or bool(pick.loop))
     values = [_VALUES[shows](pick, s, j) for s in state.rows.signals]
     if shows == "load" and turns:
         values = [np.abs(value) for value in values]

@@ -43,8 +43,8 @@ def test_a_push_is_left_out_and_the_rest_is_as_good_as_without_it(case: Case, tm
     assert step.is_improvement and step.effect == "external_force"
     # It says which seconds and rows of which log, and the file holds them.
     of_fit, of_judging, change = describe_additions(better)
-    assert of_fit.startswith(f"{train.name}: 11.") and "left out of the fit" in of_fit
-    assert of_judging.startswith(f"{holdout.name}: 8.") and "left out of judging" in of_judging
+    assert of_fit.startswith(f"{train.name}: 11.") and "rows 28" in of_fit
+    assert of_judging.startswith(f"{holdout.name}: 8.") and "left out: something" in of_judging
     assert "error falls" in change
     save_model(tmp_path / "m.json", better)
     again = load_model(tmp_path / "m.json")
@@ -91,7 +91,7 @@ def test_a_push_in_held_out_logs_alone_does_not_judge(case: Case) -> None:
     assert better.processing.get_pushes(case.train) == ()
     assert len(better.processing.get_pushes(holdout)) == 1 and better.history[-1].is_improvement
     of_judging, rest = describe_additions(better)
-    assert "left out of judging" in of_judging and "error of the rest: joint 1 0." in rest
+    assert "left out: something pushed" in of_judging and "error of the rest: joint 1 0." in rest
     assert errors_of(better, holdout, case).max() < 0.5 * errors_of(model, holdout, case).max()
 
 
