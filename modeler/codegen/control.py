@@ -598,7 +598,7 @@ def _differentiate_torques(model: SymbolicModel, beta: Mapping[int, Expr]) -> li
 def _build_regressors(
     model: SymbolicModel, base: BaseParameters, arguments: Arguments
 ) -> tuple[CFunction, ...]:
-    if layout.needs_more_than_speed(model):
+    if layout.needs_more_than_speed(model) or model.windups:
         return ()
     place = {parameter.column: i for i, parameter in enumerate(base.parameters)}
     functions = []

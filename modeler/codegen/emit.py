@@ -387,7 +387,7 @@ def _build_module(
         "loops": loops,
         "elastic": len(spec.windups),
         "travels": any(s.kind in ("slip", "bouc_wen", "direction") for s in spec.signals),
-        "plain": not layout.needs_more_than_speed(model),
+        "plain": not layout.needs_more_than_speed(model) and not spec.windups,
         "signature": "",
         "tile": _build_tile(spec, functions, module.places, labels),
     }
