@@ -277,6 +277,37 @@ class Thresholds:
     """Joints times rows: many joints make many pairs to exchange."""
     filter_taps: int = 16
     """Samples of each thinned row."""
+    windup_position_step: float = 1e-5
+    """rad or m, of central differences of the links' torque."""
+    windup_newmark_beta: float = 1.0 / 12.0
+    """Newmark's beta: of fourth order, stable up to a resonance of 0.39 of the sampling rate."""
+    windup_newton_steps: int = 8
+    """Steps of Newton's method along a motion; two or three are needed."""
+    windup_tolerance: float = 1e-6
+    """Largest relative change of a windup at its last step."""
+    windup_starts: tuple[float, ...] = (6.0, 12.0, 24.0)
+    """Hz of the resonances from which stiffness and damping are sought: 32 machines of 5 to 40
+    Hz."""
+    windup_frequencies: tuple[float, float] = (1.0, 90.0)
+    """Hz of resonances that a fit may reach. Wider than what is named."""
+    windup_dampings: tuple[float, float] = (0.003, 1.0)
+    """Damping ratios that a fit may reach. Wider than what is named."""
+    max_windup_rate: float = 0.3
+    """Resonance over the sampling rate that a fit may reach; Newmark's method is stable to 0.39."""
+    max_windup: float = 1e6
+    """rad or m, rad/s, rad/s2; beyond it an integration is of no use."""
+    windup_damping: float = 0.1
+    """Damping ratio from which it is sought. No study."""
+    first_windup_turns: int = 3
+    """Steps of Gauss-Newton of each start. No study."""
+    max_windup_turns: int = 8
+    """Steps of Gauss-Newton of the best start: 5 to 8 turns are needed."""
+    max_windup_step: float = 0.7
+    """Largest change of the logarithms of stiffness and damping in one step. No study."""
+    windup_precision: float = 1e-3
+    """Change of these at which a fit ends."""
+    windup_rank_share: float = 1e-9
+    """Singular value over the largest, of columns of length one, below which nothing is seen."""
 
 
 THRESHOLDS = Thresholds()

@@ -1,0 +1,409 @@
+"""Elastic joints: the windup between motor and link, and the fit of stiffness and damping.
+
+With e = q_motor - q_link of E elastic joints, the logged motion q being the motors', and ID the
+torque of the links alone, linear in beta (Spong 1987):
+
+    K e + D e' = [ID(q - e, qd - e', qdd - e'')]_E,
+    tau = ID(q - e, qd - e', qdd - e'') + Ia qdd + friction(qd) + offsets.
+
+The first equation, driven by the measured motion, is stable. Its slopes are those of the torque of
+the links by position, speed and acceleration of the elastic joints, G, B and M:
+
+    M de'' + (D + B) de' + (K + G) de = r,  d tau = -(G de + B de' + M de''),
+
+with r = [W_i]_E for the parameter beta_i of the links, -K e for ln K, -D e' for ln D. That is a
+linear equation for Newton's steps on e, and for all slopes that a Gauss-Newton fit needs.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import solve_banded
+
+from modeler.core.json import ShortRepr
+from modeler.estimation.thresholds import THRESHOLDS
+from modeler.numerics.least_squares import solve_scaled_least_squares
+from modeler.runtime import CompiledModel
+
+
+@dataclass(frozen=True, eq=False)
+class Motion(ShortRepr):
+    """The motion of one segment at even times; n samples, J joints.
+
+    Attributes:
+        q, qd, qdd: (n, J).
+        step: s.
+        signals: (n, m) what effects read besides; None without any.
+    """
+
+    q: np.ndarray
+    qd: np.ndarray
+    qdd: np.ndarray
+    step: float
+    signals: np.ndarray | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Windup(ShortRepr):
+    """A robot with E elastic joints; c base parameters of its module, which may be rigid.
+
+    Attributes:
+        compiled: the module.
+        joints: indices of the elastic joints.
+        beta: (c,) base parameters.
+        rotors: (E,) rotor inertias beside beta, kg m2 or kg; 0 where beta has them.
+        stiffness: (E,) N m/rad or N/m.
+        damping: (E,) N m s/rad or N s/m.
+        spread: (2 E, 2 E) covariance of ln K, then ln D, from sums over blocks.
+    """
+
+    compiled: CompiledModel
+    joints: tuple[int, ...]
+    beta: np.ndarray
+    rotors: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+    spread: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+
+    @cached_property
+    def is_link_column(self) -> np.ndarray:
+        """Returns (c,) True for the columns that the links move."""
+        return np.array([base.kind == "inertial" for base in self.compiled.spec.base])
+
+    @cached_property
+    def lacks_rotor(self) -> np.ndarray:
+        """Returns (E,) True where no base parameter is the rotor inertia alone."""
+        spec = self.compiled.spec
+        rotors = {p.name: p.joint for p in spec.standard if p.effect == "rotor_inertia"}
+        alone = {rotors.get(base.column_of) for base in spec.base if len(base.terms) == 1}
+        return np.array([spec.joints[j].name not in alone for j in self.joints])
+
+    @cached_property
+    def groups_rotor(self) -> np.ndarray:
+        """Returns (E,) True where the rotor inertia is grouped with the links'."""
+        spec = self.compiled.spec
+        rotors = {p.joint for p in spec.standard if p.effect == "rotor_inertia"}
+        here = np.array([spec.joints[j].name in rotors for j in self.joints])
+        return self.lacks_rotor & here
+
+    def _shift(self, motion: Motion, s: np.ndarray) -> list[np.ndarray]:
+        """The motion of the links, for s (n, 3, E)."""
+        moved = []
+        for k, x in enumerate((motion.q, motion.qd, motion.qdd)):
+            x = x.copy()
+            x[:, self.joints] -= s[:, k]
+            moved.append(x)
+        return moved
+
+    def _read(self, motion: Motion) -> np.ndarray | None:
+        return None if motion.signals is None else np.zeros_like(motion.signals)
+
+    def compute_columns(self, motion: Motion, s: np.ndarray) -> np.ndarray:
+        """Computes the columns (n, J, c + E): links where s has them, motors as measured."""
+        n, J = motion.q.shape
+        links = self.compiled.base_regressor(*self._shift(motion, s), self._read(motion))
+        motors = self.compiled.base_regressor(motion.q, motion.qd, motion.qdd, motion.signals)
+        rotors = np.zeros((n, J, len(self.joints)))
+        for k, j in enumerate(self.joints):
+            if self.lacks_rotor[k]:
+                rotors[:, j, k] = motion.qdd[:, j]
+        return np.concatenate([np.where(self.is_link_column, links, motors), rotors], axis=2)
+
+    def compute_slopes(
+        self, motion: Motion, s: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Computes the links' torque (n, J), and its slopes G, B, M (3, n, J, E).
+
+        The torque is quadratic in the speeds and linear in the accelerations.
+        """
+        links = np.where(self.is_link_column, self.beta, 0.0)
+        moved, read = self._shift(motion, s), self._read(motion)
+
+        def evaluate(k: int, j: int, size: float) -> np.ndarray:
+            there = list(moved)
+            there[k] = there[k].copy()
+            there[k][:, j] += size
+            return self.compiled.inverse_dynamics(*there, links, read)
+
+        torque = self.compiled.inverse_dynamics(*moved, links, read)
+        slopes = np.empty((3, *torque.shape, len(self.joints)))
+        for i, j in enumerate(self.joints):
+            for k, size in enumerate((THRESHOLDS.windup_position_step, 1.0)):
+                both = evaluate(k, j, size) - evaluate(k, j, -size)
+                slopes[k, :, :, i] = both / (2.0 * size)
+            slopes[2, :, :, i] = evaluate(2, j, 1.0) - torque
+        return torque, slopes
+
+    def solve_linear(
+        self, step: float, slopes: np.ndarray, right: np.ndarray
+    ) -> np.ndarray:
+        """Solves M x'' + (D + B) x' + (K + G) x = r (n, E, R), at rest first: (n, 3, E, R).
+
+        By Newmark's method with beta = 1/12, gamma = 1/2, of fourth order in the step but for the
+        damping: x_k = x + h v + h^2 (5/12 a + 1/12 a_k), v_k = v + h/2 (a + a_k). All steps are one
+        banded system.
+        """
+        G, B, M = slopes[:, :, self.joints]
+        n, E, R = right.shape
+        h, share = step, THRESHOLDS.windup_newmark_beta
+        eye = np.broadcast_to(np.eye(E), (n, E, E))
+        width, low, up = 3 * E, 3 * E, 2 * E
+        banded = np.zeros((low + up + 1, width * n))
+
+        def put(block: np.ndarray, row: int, column: int, first: int = 0) -> None:
+            """Blocks (n - first, E, E) at a row and a column of E, counted from sample first."""
+            at = width * np.arange(first, n)
+            for a in range(E):
+                for b in range(E):
+                    i, k = row * E + a, column * E + b
+                    banded[up + i - k, at + k] = block[first:, a, b]
+
+        put(eye, 0, 0), put(-h * h * share * eye, 0, 2, 1)
+        put(eye, 1, 1), put(-0.5 * h * eye, 1, 2, 1)
+        put(eye * self.stiffness + G, 2, 0), put(eye * self.damping + B, 2, 1), put(M, 2, 2)
+        before = [(0, 0, -1.0), (0, 1, -h), (0, 2, -h * h * (0.5 - share))]
+        for row, column, value in (*before, (1, 1, -1.0), (1, 2, -0.5 * h)):
+            for a in range(E):
+                i, k = row * E + a + width, column * E + a
+                banded[up + i - k, width * np.arange(n - 1) + k] = value
+        sides = np.zeros((n, 3, E, R))
+        sides[:, 2] = right
+        rest = np.linalg.solve(eye[0] * self.stiffness + G[0], right[0])
+        sides[0, 0] = rest
+        flat = sides.reshape(width * n, R)
+        try:
+            x = solve_banded((low, up), banded, flat, check_finite=False, overwrite_ab=True)
+        except np.linalg.LinAlgError:  # an inertia that is not positive
+            x = np.full(flat.shape, np.nan)
+        return np.asarray(x.reshape(n, 3, E, R))
+
+    def advance_solution(self, motion: Motion, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Advances s (n, 3, E) by one step of Newton's method; and the slopes where it began."""
+        torque, slopes = self.compute_slopes(motion, s)
+        known = np.einsum("knab,nkb->na", slopes[:, :, self.joints], s)
+        right = torque[:, self.joints] + known
+        return self.solve_linear(motion.step, slopes, right[:, :, None])[..., 0], slopes
+
+    def integrate(self, motion: Motion) -> np.ndarray:
+        """Integrates the windup, (n, 3, E) e, e', e'' along a motion."""
+        s = np.zeros((len(motion.q), 3, len(self.joints)))
+        for _ in range(THRESHOLDS.windup_newton_steps):
+            s, last = self.advance_solution(motion, s)[0], s
+            if not np.abs(s).max() < THRESHOLDS.max_windup:
+                return np.full(s.shape, np.nan)
+            change = np.abs(s[:, 0] - last[:, 0]).max()
+            if not change > THRESHOLDS.windup_tolerance * np.abs(s[:, 0]).max():
+                break
+        return s
+
+    def compute_torque_change(self, motion: Motion) -> np.ndarray:
+        """Computes (n, J) the torque beyond that of rigid joints with the same beta."""
+        columns = self.compute_columns(motion, self.integrate(motion))
+        rotors = columns[:, :, len(self.beta) :] * (self.rotors * ~self.groups_rotor)
+        read = motion.signals
+        rigid = self.compiled.base_regressor(motion.q, motion.qd, motion.qdd, read)
+        change = (columns[:, :, : len(self.beta)] - rigid) @ self.beta
+        return np.asarray(change + rotors.sum(axis=2))
+
+    def compute_inertia(self, motions: Sequence[Motion]) -> np.ndarray:
+        """Computes (E,) the median inertia of the links on each elastic joint."""
+        links = np.where(self.is_link_column, self.beta, 0.0)
+        q = np.concatenate([motion.q[::20] for motion in motions])
+        diagonal = np.diagonal(self.compiled.inertia_matrix(q, links), axis1=1, axis2=2)
+        return np.asarray(np.median(diagonal, axis=0)[list(self.joints)])
+
+    def compute_resonances(self, motions: Sequence[Motion]) -> tuple[np.ndarray, np.ndarray]:
+        """Computes frequencies (E,), Hz, motors locked, and damping ratios (E,)."""
+        inertia = np.maximum(self.compute_inertia(motions), 1e-300)
+        omega = np.sqrt(self.stiffness / inertia)
+        return omega / (2.0 * np.pi), self.damping / (2.0 * omega * inertia)
+
+    def bound_resonances(self, motions: Sequence[Motion]) -> "Windup":
+        """Returns it with resonances and damping ratios within bounds."""
+        inertia = np.maximum(self.compute_inertia(motions), 1e-9)
+        low, high = THRESHOLDS.windup_frequencies
+        high = min(high, THRESHOLDS.max_windup_rate / max(motion.step for motion in motions))
+        ends = (inertia * (2.0 * np.pi * f) ** 2 for f in (low, high))
+        stiffness = np.clip(self.stiffness, *ends)
+        critical = 2.0 * np.sqrt(stiffness * inertia)
+        damping = np.clip(self.damping, *(critical * z for z in THRESHOLDS.windup_dampings))
+        return replace(self, stiffness=stiffness, damping=damping)
+
+    def set_resonances(
+        self, motions: Sequence[Motion], frequency: float, joints: Sequence[int]
+    ) -> "Windup":
+        """Returns it with this resonance, Hz, of some joints."""
+        inertia = np.maximum(self.compute_inertia(motions), 1e-9)
+        some, omega = np.isin(self.joints, joints), 2.0 * np.pi * frequency
+        stiffness = np.where(some, inertia * omega**2, self.stiffness)
+        damping = np.where(some, 2.0 * THRESHOLDS.windup_damping * omega * inertia, self.damping)
+        return replace(self, stiffness=stiffness, damping=damping)
+
+
+@dataclass(frozen=True, eq=False)
+class _Turn:
+    """One evaluation of a fit."""
+
+    windup: Windup
+    states: list[np.ndarray]  # (n, 3, E) by segment
+    extra_values: np.ndarray  # (m,)
+    jacobian: np.ndarray  # (rows, free + m + E + 2 E)
+    residual: np.ndarray  # (rows,)
+    cost: float
+
+
+@dataclass(frozen=True, eq=False)
+class WindupProblem(ShortRepr):
+    """Rows that beta, K and D are fitted to; J joints.
+
+    Attributes:
+        motions: by segment.
+        filter_rows: from values (n, J, k) by segment to rows (rows_j, k) by joint.
+        y: (rows_j,) torques by joint.
+        block: (rows_j,) by joint, number of the block of time.
+        free: indices of the base parameters that are fitted.
+        extra: (rows_j, m) by joint, columns of further effects.
+        prior: (p, free + m + 1) what is known beforehand, of weight 1.
+    """
+
+    motions: Sequence[Motion]
+    filter_rows: Callable[[Sequence[np.ndarray]], Sequence[np.ndarray]]
+    y: Sequence[np.ndarray]
+    block: Sequence[np.ndarray]
+    free: np.ndarray
+    extra: Sequence[np.ndarray]
+    prior: np.ndarray
+
+    @cached_property
+    def row_joint(self) -> np.ndarray:
+        """Returns the joint of each row, (rows,)."""
+        return np.repeat(np.arange(len(self.y)), [len(y) for y in self.y])
+
+    def evaluate(self, windup: Windup, states: Sequence[np.ndarray], extra: np.ndarray) -> _Turn:
+        """Evaluates residuals and slopes near states (n, 3, E) of the segments."""
+        c, E, after, every = len(windup.beta), len(windup.joints), [], []
+        links = np.append(windup.is_link_column, np.zeros(E, dtype=bool))
+        lost = _Turn(windup, [], extra, np.zeros((0, 0)), np.zeros(0), np.inf)
+        for motion, s in zip(self.motions, states, strict=True):
+            if not np.abs(s).max() < THRESHOLDS.max_windup:
+                return lost
+            s, slopes = windup.advance_solution(motion, s)
+            if not np.abs(s).max() < THRESHOLDS.max_windup:
+                return lost
+            columns = windup.compute_columns(motion, s)
+            forces = windup.stiffness * s[:, 0], windup.damping * s[:, 1]
+            sides = [np.where(links, columns[:, windup.joints], 0.0)[:, :, : c]]
+            sides += [-force[:, :, None] * np.eye(E) for force in forces]
+            moved = windup.solve_linear(motion.step, slopes, np.concatenate(sides, axis=2))
+            along = np.moveaxis(slopes, 0, 2).reshape(*columns.shape[:2], 3 * E)
+            change = -along @ moved.reshape(len(s), 3 * E, -1)
+            torque = columns @ np.concatenate([windup.beta, windup.rotors])
+            columns[:, :, :c] += change[:, :, :c]
+            every.append(np.concatenate([columns, change[:, :, c:], torque[:, :, None]], axis=2))
+            after.append(s)
+        rows = np.concatenate(list(self.filter_rows(every)))
+        extra_rows = np.concatenate(list(self.extra))
+        order = [*self.free, *range(c, rows.shape[1] - 1)]
+        m = len(self.free)
+        jacobian = np.hstack([rows[:, order[:m]], extra_rows, rows[:, order[m:]]])
+        residual = np.concatenate(list(self.y)) - rows[:, -1] - extra_rows @ extra
+        finite = bool(np.isfinite(residual).all() and np.isfinite(jacobian).all())
+        cost = self._compute_cost(residual) if finite else np.inf
+        return _Turn(windup, after, extra, jacobian, residual, cost)
+
+    def _compute_sigma(self, residual: np.ndarray) -> np.ndarray:
+        """(J,) rms of the rows of each joint; 1 without any."""
+        count = np.bincount(self.row_joint, minlength=len(self.y))
+        square = np.bincount(self.row_joint, residual**2, len(self.y))
+        return np.sqrt(np.where(square > 0.0, square, 1.0) / np.maximum(count, 1))
+
+    def _compute_cost(self, residual: np.ndarray) -> float:
+        """Minus the logarithm of the likelihood, each joint with a sigma of its own."""
+        sigma = self._compute_sigma(residual)
+        return float(np.sum(np.log(sigma[self.row_joint])))
+
+    def _solve(self, turn: _Turn) -> np.ndarray:
+        """The next values: free beta, extra, rotors, changes of ln K and ln D."""
+        weight = 1.0 / self._compute_sigma(turn.residual)[self.row_joint]
+        windup, p = turn.windup, turn.jacobian.shape[1]
+        now = np.concatenate([windup.beta[self.free], turn.extra_values, windup.rotors])
+        now = np.append(now, np.zeros(p - len(now)))
+        A, b = turn.jacobian * weight[:, None], (turn.residual + turn.jacobian @ now) * weight
+        known = np.zeros((len(self.prior), p))
+        known[:, : self.prior.shape[1] - 1] = self.prior[:, :-1]
+        A, b = np.vstack([A, known]), np.append(b, self.prior[:, -1])
+        R = np.linalg.qr(np.column_stack([A, b]), mode="r")
+        return solve_scaled_least_squares(R[:, :-1], R[:, -1], THRESHOLDS.windup_rank_share) - now
+
+    def _move(self, turn: _Turn, step: np.ndarray, share: float) -> _Turn:
+        """A turn with a share of a step taken."""
+        windup, E, m = turn.windup, len(turn.windup.joints), len(turn.extra_values)
+        step, f = share * step, len(self.free)
+        beta = windup.beta.copy()
+        beta[self.free] += step[:f]
+        stiffness, damping = np.exp(step[-2 * E :]).reshape(2, E)
+        after = replace(
+            windup,
+            beta=beta,
+            rotors=windup.rotors + step[f + m : f + m + E],
+            stiffness=windup.stiffness * stiffness,
+            damping=windup.damping * damping,
+        )
+        with np.errstate(all="ignore"):
+            after = after.bound_resonances(self.motions)
+            return self.evaluate(after, turn.states, turn.extra_values + step[f : f + m])
+
+    def iterate(self, turn: _Turn, turns: int) -> _Turn:
+        """Improves a turn by steps of Gauss-Newton, each shortened until the cost falls."""
+        E = len(turn.windup.joints)
+        for _ in range(turns):
+            step = self._solve(turn)
+            far = float(np.abs(step[-2 * E :]).max())
+            share = min(1.0, THRESHOLDS.max_windup_step / max(far, 1e-300))
+            after = self._move(turn, step, share)
+            while not after.cost < turn.cost and share * far > THRESHOLDS.windup_precision:
+                share *= 0.4
+                after = self._move(turn, step, share)
+            if not after.cost < turn.cost:
+                break
+            turn = after
+            if share * far < THRESHOLDS.windup_precision:
+                break
+        return turn
+
+    def fit(self, start: Windup, free_joints: Sequence[int] = ()) -> tuple[Windup, _Turn]:
+        """Fits beta, K and D.
+
+        Args:
+            start: with its K and D.
+            free_joints: those whose K and D begin at several resonances; the best goes on.
+        """
+        extra = np.zeros(self.extra[0].shape[1])
+        starts = [start]
+        if free_joints:
+            of = THRESHOLDS.windup_starts
+            starts = [start.set_resonances(self.motions, f, free_joints) for f in of]
+        first, turns = THRESHOLDS.first_windup_turns, []
+        for windup in starts:
+            with np.errstate(all="ignore"):
+                states = [windup.integrate(motion) for motion in self.motions]
+                turn = self.evaluate(windup, states, extra)
+            if np.isfinite(turn.cost):
+                turns.append(self.iterate(turn, first))
+        best = self.iterate(min(turns, key=lambda turn: turn.cost), THRESHOLDS.max_windup_turns)
+        return replace(best.windup, spread=self._compute_spread(best)), best
+
+    def _compute_spread(self, turn: _Turn) -> np.ndarray:
+        """(2 E, 2 E) covariance of ln K and ln D, from sums over blocks of time."""
+        weight = 1.0 / self._compute_sigma(turn.residual)[self.row_joint]
+        A, block = turn.jacobian * weight[:, None], np.concatenate(list(self.block))
+        size = np.linalg.norm(A, axis=0)
+        A = A / np.where(size > 0.0, size, 1.0)
+        inverse = np.linalg.pinv(A.T @ A, rcond=1e-12, hermitian=True)
+        sums = np.zeros((int(block.max()) + 1, A.shape[1]))
+        np.add.at(sums, block, A * (turn.residual * weight)[:, None])
+        E = len(turn.windup.joints)
+        root = (sums @ inverse / np.where(size > 0.0, size, 1.0))[:, -2 * E :]
+        return np.asarray(root.T @ root)
