@@ -25,6 +25,7 @@ from modeler.effects import (
     NonlinearParameter,
     Requirement,
 )
+from modeler.estimation import Motion, Windup
 from modeler.numerics.filters import SPREAD, restrict_weights
 from modeler.regression import FilteredSegment, Observation, compute_signals, rebuild_observation
 
@@ -72,6 +73,32 @@ class JointScale:
         return start + entry * self.get_unit(shape)
 
 
+@dataclass(frozen=True, eq=False)
+class ElasticFit(ShortRepr):
+    """What was fitted of an elastic joint.
+
+    Attributes:
+        windup: the robot with it, and with the elastic joints that were put in before.
+        others: with these alone; None without any.
+        is_plausible: False where the values are none of an elastic joint, or uncertain.
+    """
+
+    windup: Windup
+    others: Windup | None
+    is_plausible: bool
+
+    def compute_torque(self, signals: Signals) -> np.ndarray:
+        """Computes the torque (n, J) that the joint adds, at full rate."""
+        motion = describe_motion(signals)
+        torque = self.windup.compute_torque_change(motion)
+        return torque if self.others is None else torque - self.others.compute_torque_change(motion)
+
+
+def describe_motion(signals: Signals) -> Motion:
+    """Returns the motion of a segment, as a windup reads it."""
+    return Motion(signals.q, signals.v, signals.a, signals.step, signals.model_signals)
+
+
 @dataclass(frozen=True)
 class Candidate(ShortRepr):
     """One effect on one joint with its shapes.
@@ -83,6 +110,7 @@ class Candidate(ShortRepr):
         index: of the joint among those of the model, or of the row that has no motor; -1 without.
         nonlinear_parameters: values by name, SI.
         coupling: of a motor that turns with several joints, {index of a joint: coefficient}.
+        elastic: of an elastic joint whose windup was fitted.
     """
 
     effect: Effect
@@ -91,6 +119,7 @@ class Candidate(ShortRepr):
     index: int
     nonlinear_parameters: Mapping[str, float] = field(default_factory=dict)
     coupling: Mapping[int, float] = field(default_factory=dict)
+    elastic: ElasticFit | None = None
 
     @property
     def key(self) -> tuple[str, str | None]:
@@ -340,6 +369,8 @@ def evaluate_equations(
 def evaluate_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -> np.ndarray:
     """Evaluates the torques of its columns on every joint, (n, J, k), over a window."""
     acts = candidate.effect.acts
+    if candidate.elastic is not None:
+        return candidate.elastic.compute_torque(signals)[window, :, None]
     if candidate.is_delay:
         return signals.rate[window, :, None]
     if acts is EffectTarget.GRAVITY:
@@ -456,6 +487,9 @@ class Rows(ShortRepr):
 
     def build_columns(self, candidate: Candidate) -> Columns:
         """Builds the columns of a candidate on these rows."""
+        if candidate.elastic is not None:
+            torques = [candidate.elastic.compute_torque(s)[:, :, None] for s in self.signals]
+            return self.filter_joints(lambda i, w: torques[i][w])
         if candidate.is_local or candidate.effect.acts is EffectTarget.POSITION:
             return self._build_stacked([candidate])
         if candidate.effect.acts is EffectTarget.TORQUE and not candidate.is_delay:  # on all alike
@@ -468,7 +502,8 @@ class Rows(ShortRepr):
     def build_batch(self, candidates: Sequence[Candidate]) -> list[Columns]:
         """Builds the columns of several candidates of one effect on one joint."""
         first = candidates[0]
-        if not first.is_local and first.effect.acts is not EffectTarget.POSITION:
+        local = first.is_local or first.effect.acts is EffectTarget.POSITION
+        if not local or first.elastic is not None:
             return [self.build_columns(candidate) for candidate in candidates]
         whole = self._build_stacked(candidates)
         columns = [None if c is None else np.ascontiguousarray(c.T) for c in whole]

@@ -41,7 +41,7 @@ def is_confirmed(state: State, candidate: Candidate, values: np.ndarray) -> bool
     """Returns whether the smooth motion supports the effect, and no convention explains it.
 
     Noise of the encoder runs through the controller into the torque: least squares then see delays
-    and elasticity that are not there. Instruments are the same columns built from a motion without
+    that are not there. Instruments are the same columns built from a motion without
     that noise: the measured one, smoothed to little more than the band of the motion.
 
     Args:
@@ -49,6 +49,8 @@ def is_confirmed(state: State, candidate: Candidate, values: np.ndarray) -> bool
         candidate: with its shapes.
         values: of its parameters by least squares.
     """
+    if candidate.effect.is_oscillator:
+        return candidate.elastic is not None
     _, supported, conventional = _check_smooth_motion(state, candidate, values)
     return supported and not conventional
 

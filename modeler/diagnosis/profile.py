@@ -24,6 +24,7 @@ from functools import cached_property
 import numpy as np
 
 from modeler.core.manifest import ModuleSpec
+from modeler.diagnosis.elastic_joints import describe_elastic_joint
 from modeler.diagnosis.candidates import (
     Candidate,
     JointScale,
@@ -454,7 +455,7 @@ def _name_values(
         unit = "unit_prismatic" if is_prismatic(state.spec, pick.joint) else "unit_revolute"
         columns = zip(pick.list_parameter_names(), pick.form.columns, strict=True)
         units = {name: getattr(column, unit) for name, column in columns}
-    value = dict(zip(units, map(float, values), strict=True))
+    value = dict(zip(units, map(float, values), strict=pick.elastic is None))
     return value, dict(zip(units, map(float, deviations), strict=False)), units
 
 
@@ -475,6 +476,11 @@ def estimate_effect(
         values: of its columns.
         deviations: theirs, if it has no nonlinear parameters.
     """
+    if pick.elastic is not None:
+        value, sigmas = describe_elastic_joint(state.picks, pick)
+        linear = is_prismatic(state.spec, pick.joint)
+        units = {s.name: s.get_unit(linear) for s in pick.form.nonlinear_parameters}
+        return EffectEstimate(value, sigmas, {}, units)
     along = compute_effect_profile(state, place)
     if along is not None:
         deviations = along.compute_deviations()

@@ -400,6 +400,8 @@ def is_possible(candidate: Candidate, values: np.ndarray) -> bool:
     """
     if candidate.effect.acts is EffectTarget.GRAVITY:
         return True
+    if candidate.elastic is not None and not candidate.elastic.is_plausible:
+        return False
     turned = candidate.effect.sign * float(values[-1]) < 0.0
     return not turned and not any(
         (column.nonnegative and value < 0.0) or abs(value) > column.largest

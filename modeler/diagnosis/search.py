@@ -12,6 +12,7 @@ from modeler.core.json import ShortRepr
 from modeler.core.manifest import ModuleSpec
 from modeler.diagnosis import plausibility
 from modeler.diagnosis.candidates import Candidate, encode_parameter
+from modeler.diagnosis.elastic_joints import fit_elastic_joint
 from modeler.diagnosis.generation import find_slowest_ringing, generate_candidates
 from modeler.diagnosis.profile import (
     build_reduction_function,
@@ -45,6 +46,8 @@ def refine_nonlinear_parameters(
         candidate: where to begin.
         compute_reduction: by shapes; None: by motion left out of the fit.
     """
+    if candidate.elastic is not None:
+        return candidate
     compute_reduction = compute_reduction or partial(_compute_reduction, state)
     smooth = [shape for shape in candidate.form.nonlinear_parameters if candidate.can_refine(shape)]
     if not smooth:
@@ -160,6 +163,7 @@ class CandidateScan:
         leading = left.best[: THRESHOLDS.max_refined_alternatives]
         least = THRESHOLDS.min_refined_gain
         close = [j for j in leading if j.is_possible and j.is_near(leading[0])]
+        close += self._list_likely_windups(left.best, close)
         close = [j for j in close if j.variance_reduction > least]
         # Of effects that were not refined, only the best shapes may win still.
         refined = {}
@@ -173,11 +177,21 @@ class CandidateScan:
         best = [refined.get(j.key, j) for j in left.best]
         return select_best(self.state, sorted(best, key=lambda j: -j.total_reduction))
 
+    def _list_likely_windups(
+        self, best: Sequence[ScoredCandidate], close: Sequence[ScoredCandidate]
+    ) -> list[ScoredCandidate]:
+        """Elastic joints that explain a part of what leads: fitted, they explain far more."""
+        share, most = THRESHOLDS.min_windup_share, THRESHOLDS.max_fitted_windups
+        rings = [j for j in best if j.candidate.effect.is_oscillator and j.is_possible]
+        return [j for j in rings[:most] if j.total_share > share * best[0].total_share and j not in close]
+
     def refine_candidate(
         self, score: ScoredCandidate, starts: Sequence[Candidate]
     ) -> ScoredCandidate:
         """Refines the best parameters of an effect, or takes the next best."""
         state, first = self.state, score.candidate
+        if first.effect.is_oscillator:
+            return self._fit_elastic_joint(score)
         better = [refine_nonlinear_parameters(state, start) for start in starts]
         if better == [first]:
             return score
@@ -189,6 +203,15 @@ class CandidateScan:
         if pair is None:
             (pair,) = plausibility.pair_columns(state, [best.candidate])
         return score_candidates(state, [pair])[0]
+
+    def _fit_elastic_joint(self, score: ScoredCandidate) -> ScoredCandidate:
+        """The joint with its windup; as it was where that cannot be fitted."""
+        candidate = fit_elastic_joint(self.state, score.candidate)
+        if candidate is None:
+            return score
+        columns = self.state.rows.build_columns(candidate)
+        pairs = [(candidate, columns)]
+        return score_candidates(self.state, pairs)[0] if is_visible(columns) else score
 
     def list_starts(self, first: Candidate) -> list[Candidate]:
         """Lists the parameters of one effect from which refining starts, the best first.
@@ -559,6 +582,8 @@ class _Pruning:
 
 
 def _is_free(step: SearchStep) -> bool:
+    if step.candidate.elastic is not None:
+        return False
     return any(step.candidate.can_refine(s) for s in step.candidate.form.nonlinear_parameters)
 
 

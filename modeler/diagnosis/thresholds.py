@@ -164,6 +164,13 @@ class Thresholds:
     min_resonance_ratio: float = 3.0
     """Resonance over the bandwidth of the motion, below which a joint moves as one body. No
     study."""
+    max_stiffness_spread: float = 0.25
+    """Standard deviation of the logarithm of a stiffness with which it is named: 32 clean machines
+    had more."""
+    min_windup_share: float = 0.1
+    """Share of the leading reduction with which a joint is tried as elastic. No study."""
+    max_fitted_windups: int = 2
+    """Joints tried as elastic in one state. Bounds the time."""
     min_variance_reduction: float = 0.03
     """Share of the held-out residual variance that an effect must explain. No study."""
     min_torque_share: float = 0.002

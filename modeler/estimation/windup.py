@@ -200,7 +200,11 @@ class Windup(ShortRepr):
 
     def compute_torque_change(self, motion: Motion) -> np.ndarray:
         """Computes (n, J) the torque beyond that of rigid joints with the same beta."""
-        columns = self.compute_columns(motion, self.integrate(motion))
+        with np.errstate(all="ignore"):
+            s = self.integrate(motion)
+        if not np.isfinite(s).all():
+            return np.full(motion.q.shape, np.nan)
+        columns = self.compute_columns(motion, s)
         rotors = columns[:, :, len(self.beta) :] * (self.rotors * ~self.groups_rotor)
         read = motion.signals
         rigid = self.compiled.base_regressor(motion.q, motion.qd, motion.qdd, read)
@@ -219,6 +223,16 @@ class Windup(ShortRepr):
         inertia = np.maximum(self.compute_inertia(motions), 1e-300)
         omega = np.sqrt(self.stiffness / inertia)
         return omega / (2.0 * np.pi), self.damping / (2.0 * omega * inertia)
+
+    def add_joint(self, joint: int) -> "Windup":
+        """Returns it with one elastic joint more, whose values are still to be set."""
+        return replace(
+            self,
+            joints=(*self.joints, joint),
+            rotors=np.append(self.rotors, 0.0),
+            stiffness=np.append(self.stiffness, 1.0),
+            damping=np.append(self.damping, 1.0),
+        )
 
     def bound_resonances(self, motions: Sequence[Motion]) -> "Windup":
         """Returns it with resonances and damping ratios within bounds."""
@@ -373,8 +387,8 @@ class WindupProblem(ShortRepr):
                 break
         return turn
 
-    def fit(self, start: Windup, free_joints: Sequence[int] = ()) -> tuple[Windup, _Turn]:
-        """Fits beta, K and D.
+    def fit(self, start: Windup, free_joints: Sequence[int] = ()) -> Windup | None:
+        """Fits beta, K and D; None where no start can be integrated.
 
         Args:
             start: with its K and D.
@@ -392,8 +406,10 @@ class WindupProblem(ShortRepr):
                 turn = self.evaluate(windup, states, extra)
             if np.isfinite(turn.cost):
                 turns.append(self.iterate(turn, first))
+        if not turns:
+            return None
         best = self.iterate(min(turns, key=lambda turn: turn.cost), THRESHOLDS.max_windup_turns)
-        return replace(best.windup, spread=self._compute_spread(best)), best
+        return replace(best.windup, spread=self._compute_spread(best))
 
     def _compute_spread(self, turn: _Turn) -> np.ndarray:
         """(2 E, 2 E) covariance of ln K and ln D, from sums over blocks of time."""
