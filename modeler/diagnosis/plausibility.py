@@ -430,10 +430,8 @@ def _compute_friction(state: State, j: int, picks: Sequence[int]) -> np.ndarray:
 def find_caveat(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
     """Explains why the values cannot be those of the effect; empty if they can.
 
-    A joint of stiffness K rings, with its motor held, at f = sqrt(K/J)/(2 pi), J the inertia that
-    the model has on its axis: something else that rings (a sloshing load, a soft base) has another
-    J (Spong 1987). And where no gravity turns a joint, nothing balances it; nor is a lever seen
-    where a straight line describes its torque as well.
+    Where no gravity turns a joint, nothing balances it; nor is a lever seen where a straight line
+    describes its torque as well.
 
     Args:
         state: with the effect.
@@ -587,28 +585,11 @@ def _check_lever(state: State, pick: Candidate, parameters: Mapping[str, float])
     return "over this stroke its torque is a straight line in q: another spring gives it too"
 
 
-def _check_oscillator(state: State, pick: Candidate, parameters: Mapping[str, float]) -> str:
-    compliance = parameters[pick.list_parameter_names()[0]]
-    q = np.concatenate([s.q[::20] for s in state.rows.signals])
-    inertia = state.data.compiled.inertia_matrix(q, state.reference.link_parameters)
-    link_inertia = float(np.median(inertia[:, pick.index, pick.index]))
-    rings = 1.0 / max(compliance * (2.0 * np.pi * parameters["f"]) ** 2, 1e-300)
-    most = THRESHOLDS.max_inertia_ratio
-    if link_inertia <= 0.0 or max(rings / link_inertia, link_inertia / rings) < most:
-        return ""
-    unit = "kg m2" if _is_revolute(state, pick) else "kg"
-    return (
-        f"what rings has {rings:.3g} {unit} on this axis, and the links have {link_inertia:.3g} "
-        f"{unit}: something else rings"
-    )
-
-
 _CHECKS: Mapping[Requirement, Callable[[State, Candidate, Mapping[str, float]], str]] = {
     Requirement.GRAVITY: _check_gravity_load,
     Requirement.CURVE: _check_lever,
     Requirement.REST: _check_rest_position,
     Requirement.MASS: _check_body,
-    Requirement.INERTIA: _check_oscillator,
     Requirement.GAIN: _check_gain,
     Requirement.LAG: _check_lag,
     Requirement.TILT: _check_tilt,

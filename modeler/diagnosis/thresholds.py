@@ -217,8 +217,6 @@ class Thresholds:
     """Friction over torque, rms: the lowest of measured robots with gears has 0.11."""
     min_friction_residual_ratio: float = 2.0
     """Friction over residual, rms; friction as clear as this was measured. No study."""
-    max_inertia_ratio: float = 5.0
-    """Inertia that resonates over that of the model, either way. No study."""
     max_body_misfit: float = 0.3
     """Share of the rms of a body on a link that a physical body may miss. No study."""
     max_friction_part: float = 1.3

@@ -46,7 +46,6 @@ class Requirement(enum.Enum):
     REST = "its rest position q0 lies in the motion, unless the model has an offset"
     TILT = "gravity keeps its size: it only turns"
     MASS = "the body has no negative mass"
-    INERTIA = "what rings has about the inertia that the model has on the joint"
     GAIN = "the gain of a drive is positive, and within ten times of the one given"
     LAG = "its torque is the filtered one, not one that is only delayed"
     FRICTION = "it is a part of the friction of its joint, never larger than all of it"
