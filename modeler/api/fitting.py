@@ -33,7 +33,15 @@ from modeler.derivation import complete_home
 from modeler.estimation import OF_TRIANGLES, long_logs as chunked
 from modeler.formats import read_robot
 from modeler.numerics.least_squares import CompressedRegression
-from modeler.regression import DataWarning, Log, Observation, Processing, check_no_overlap, observe
+from modeler.regression import (
+    DataWarning,
+    Log,
+    Observation,
+    Processing,
+    check_no_overlap,
+    observe,
+    rebuild_observation,
+)
 from modeler.robot import (
     Robot,
     compute_joint_directions,
@@ -173,6 +181,9 @@ def run_estimator(
         faults = estimation.check_known_quantities(compiled, observation, payloads, current)
         equations = estimation.build_loaded_equations(compiled, observation, payloads).equations
         return FitOutcome(result, faults, equations=equations)
+    if compiled.spec.windups:
+        result, equations = estimation.identify_elastic(observation, method, compiled, below)
+        return FitOutcome(result, equations=equations)
     return FitOutcome(estimation.identify(observation, method, compiled, below))
 
 
@@ -216,7 +227,11 @@ def fit_observation(
             options, robot.derivation.robot, robot.compiled, observation, payloads
         )
     with report_step("judging the fit"):
-        result = add_verdict(robot.compiled, observation, outcome)
+        fit = outcome.result
+        compiled = robot.compiled.set_windup(fit.beta, fit.elastic_values)
+        if fit.elastic:
+            observation = rebuild_observation(compiled, observation)
+        result = add_verdict(compiled, observation, outcome)
     return assemble_model(robot.derivation, robot.emitted, observation, result), outcome
 
 

@@ -310,7 +310,7 @@ def compile(model: IdentifiedModel) -> CompiledModel:
     otherwise = ", or use --run-embedded-c to run the C in the file if you trust its source"
     emitted = emit_model(model, otherwise)[1]
     emitted = dataclasses.replace(emitted, log=model.mapping or emitted.log)
-    return compile_model(emitted).set_windup(model.beta)
+    return compile_model(emitted).set_windup(model.beta, model.fit.elastic_values)
 
 
 def emit_model(model: IdentifiedModel, otherwise: str = "") -> tuple[Derivation, EmittedModule]:

@@ -23,6 +23,7 @@ from .identify import (
     find_disconnected_joints as find_disconnected_joints,
     find_methods as find_methods,
     identify as identify,
+    identify_elastic as identify_elastic,
 )
 from .instrumental import (
     ControlLoop as ControlLoop,

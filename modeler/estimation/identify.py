@@ -24,12 +24,19 @@ from modeler.estimation.physical_consistency import estimate_consistent
 from modeler.estimation.prior import Prior, build_prior, describe_unused_prior
 from modeler.estimation.result import FitResult, JointFit
 from modeler.estimation.thresholds import THRESHOLDS
+from modeler.estimation.windup import fit_elastic_joints
 from modeler.numerics.least_squares import (
     CompressedRegression,
     compress_rows,
     solve_scaled_least_squares,
 )
-from modeler.regression import Observation, compute_prior_weights, compute_triangles, is_streamed
+from modeler.regression import (
+    Observation,
+    compute_prior_weights,
+    compute_triangles,
+    is_streamed,
+    rebuild_observation,
+)
 from modeler.runtime import CompiledModel
 
 _REFUSALS = {
@@ -216,7 +223,49 @@ def identify(
         DataError: fewer rows than parameters, no torque at all, no such method, or one that these
             logs or this robot give nothing to work on.
     """
+    if model is not None and model.spec.windups:
+        return identify_elastic(observation, method, model, below)[0]
     return fit_equations(observation, build_base_equations(observation), method, model, below)
+
+
+def identify_elastic(
+    observation: Observation, method: Method, model: CompiledModel, below: float | None = None
+) -> tuple[FitResult, Equations]:
+    """Returns the fit of a robot with elastic joints, K and D too; and the equations of beta.
+
+    These are linear about the fit: W holds the slopes of the torque by beta, with what beta does to
+    the windup, and y is less by what W beta there is beyond the torque.
+
+    Raises:
+        DataError: as `identify`; or no windup can be integrated, or no such method for it.
+    """
+    if method not in _WITH_LOADS:
+        raise DataError(
+            f"--method {method}: {model.spec.robot} has elastic joints; expected "
+            f"{', '.join(_WITH_LOADS[:-1])} or {_WITH_LOADS[-1]}"
+        )
+    about = fit_elastic_joints(observation, model)
+    if about is None:
+        raise DataError(
+            f"{', '.join(observation.logs)}: no motion of the elastic joints of {model.spec.robot} "
+            "fits these logs; check K and D in the robot file"
+        )
+    beta = about.windup.beta
+    seen = rebuild_observation(model.set_windup(beta, about.values), observation)
+    vars(seen)["columns"] = about.columns
+    y = (observation.torque - about.torque + about.columns @ beta)[observation.used]
+    equations = Equations(seen, build_base_equations(seen).extra, y, seen.names, seen.units)
+    fit = fit_equations(seen, equations, method, model, below)
+    more = about.slopes @ about.windup.spread @ about.slopes.T
+    known = np.array([p.sigma is not None for p in fit.parameters])
+    covariance = fit.covariance + more * np.outer(known, known)
+    sigma = np.sqrt(np.diag(covariance))
+    every = tuple(
+        dataclasses.replace(p, sigma=float(s)) if p.sigma is not None else p
+        for p, s in zip(fit.parameters, sigma, strict=True)
+    )
+    values = {"parameters": every, "covariance": covariance, "elastic": about.list_estimates()}
+    return dataclasses.replace(fit, **values), equations
 
 
 def build_base_equations(observation: Observation) -> Equations:

@@ -232,7 +232,7 @@ class IdentifiedModel(Result, Document):
         except ValueError:
             table = {}
         mapping = self.mapping or (table if isinstance(table, Mapping) else {})
-        return load_module(self.spec, self.sources, mapping).set_windup(self.beta)
+        return load_module(self.spec, self.sources, mapping).set_windup(self.beta, self.fit.elastic_values)
 
 
 def collect_provenance(report: DataReport) -> tuple[LogProvenance, ...]:
@@ -418,7 +418,7 @@ def check_checksums(content: Mapping[str, Any], where: str) -> None:
 
 def _find_wrong_values(fit: FitResult) -> Iterator[str]:
     """Yields which values and deviations no fit gives, and why."""
-    for p in (*fit.gains, *fit.parameters, *fit.loads):
+    for p in (*fit.gains, *fit.parameters, *fit.elastic, *fit.loads):
         for what, number in (("value", p.value), ("sigma", p.sigma)):
             if number is not None and not np.isfinite(number):
                 yield f"the {what} of {p.name} is {number!r}; expected a finite one"

@@ -396,6 +396,7 @@ class FitResult(Result, Document):
         essential: the reduced model; None if it has no parameter, or in files that lack it.
         directions: friction by direction, of joints whose viscous friction differs.
         energy: how it compares with the torque model; None for the torque model itself.
+        elastic: stiffness and damping of elastic joints, `K2` of all of them, then `D2`.
         gains: drive gains, named `g_tau1`, N m or N per drive unit; empty if none were fitted.
         singular_values: of the drive gains, descending; 1 is noise (see `solve_mixed_tls`).
         reading: of long logs: passes, chunks, rows, windows, rows_in_windows; empty of others.
@@ -407,7 +408,7 @@ class FitResult(Result, Document):
     KEYS = """
         robot method status samples rows condition_number condition_scaled relative_error
         relative_error_pools by_unit essential_error joints=joint_results by_load=load_results
-        parameters loads gains singular_values sentences processing standard essential
+        parameters loads elastic gains singular_values sentences processing standard essential
         prior_conflicts directions model energy bands valid=verdict.valid
         valid_for=verdict.valid_for verdict=verdict.line warnings undetectable_faults
         physically_consistent=verdict.physically_consistent reading
@@ -441,6 +442,12 @@ class FitResult(Result, Document):
     by_load: Mapping[str, tuple[JointFit, ...]] = field(default_factory=dict)
     bands: Bands | None = None
     prior_conflicts: tuple[str, ...] = ()
+    elastic: tuple[ParameterEstimate, ...] = ()
+
+    @property
+    def elastic_values(self) -> np.ndarray | None:
+        """Returns (2 E,) stiffnesses, then dampings of elastic joints; None if none was fitted."""
+        return np.array([one.value for one in self.elastic]) if self.elastic else None
 
     @property
     def beta(self) -> np.ndarray:
@@ -496,7 +503,8 @@ class FitResult(Result, Document):
             if self.essential and self.essential.dropped_parameters
             else ()
         )
-        lines = format_parameters((*self.gains, *self.parameters, *self.loads), alone)
+        every = (*self.gains, *self.parameters, *self.elastic, *self.loads)
+        lines = format_parameters(every, alone)
         lines += format_directions(self.directions)
         lines += [
             f"{self.rows} rows of {self.samples} samples, condition number "
@@ -521,7 +529,7 @@ class FitResult(Result, Document):
 
 
 _LISTS: Mapping[str, type] = {
-    **dict.fromkeys(("parameters", "loads", "gains"), ParameterEstimate),
+    **dict.fromkeys(("parameters", "loads", "elastic", "gains"), ParameterEstimate),
     "directions": DirectedFriction,
 }
 _NULLS = {

@@ -298,6 +298,13 @@ class Thresholds:
     """rad or m, rad/s, rad/s2; beyond it an integration is of no use."""
     windup_damping: float = 0.1
     """Damping ratio from which it is sought. No study."""
+    windup_band: float = 30.0
+    """Hz of the parallel filter in which stiffness and damping are fitted, as that of a
+    diagnosis."""
+    windup_sampling: float = 0.004
+    """s between samples from which columns are made, at least."""
+    windup_block: float = 0.5
+    """s of a block of time, beyond which residuals are independent."""
     first_windup_turns: int = 3
     """Steps of Gauss-Newton of each start. No study."""
     max_windup_turns: int = 8

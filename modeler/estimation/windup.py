@@ -23,8 +23,18 @@ import numpy as np
 from scipy.linalg import solve_banded
 
 from modeler.core.json import ShortRepr
+from modeler.estimation.parameters import ParameterEstimate
 from modeler.estimation.thresholds import THRESHOLDS
+from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import solve_scaled_least_squares
+from modeler.regression import (
+    FilteredSegment,
+    Observation,
+    compute_prior_weights,
+    filter_segment,
+    find_shafts,
+    rebuild_observation,
+)
 from modeler.runtime import CompiledModel
 
 
@@ -280,6 +290,7 @@ class WindupProblem(ShortRepr):
         free: indices of the base parameters that are fitted.
         extra: (rows_j, m) by joint, columns of further effects.
         prior: (p, free + m + 1) what is known beforehand, of weight 1.
+        is_elastic_fixed: True if K and D stay as they are.
     """
 
     motions: Sequence[Motion]
@@ -289,6 +300,7 @@ class WindupProblem(ShortRepr):
     free: np.ndarray
     extra: Sequence[np.ndarray]
     prior: np.ndarray
+    is_elastic_fixed: bool = False
 
     @cached_property
     def row_joint(self) -> np.ndarray:
@@ -327,26 +339,28 @@ class WindupProblem(ShortRepr):
         cost = self._compute_cost(residual) if finite else np.inf
         return _Turn(windup, after, extra, jacobian, residual, cost)
 
-    def _compute_sigma(self, residual: np.ndarray) -> np.ndarray:
-        """(J,) rms of the rows of each joint; 1 without any."""
+    def compute_sigma(self, residual: np.ndarray) -> np.ndarray:
+        """Computes the rms (J,) of the rows of each joint; 1 without any."""
         count = np.bincount(self.row_joint, minlength=len(self.y))
         square = np.bincount(self.row_joint, residual**2, len(self.y))
         return np.sqrt(np.where(square > 0.0, square, 1.0) / np.maximum(count, 1))
 
     def _compute_cost(self, residual: np.ndarray) -> float:
         """Minus the logarithm of the likelihood, each joint with a sigma of its own."""
-        sigma = self._compute_sigma(residual)
+        sigma = self.compute_sigma(residual)
         return float(np.sum(np.log(sigma[self.row_joint])))
 
     def _solve(self, turn: _Turn) -> np.ndarray:
         """The next values: free beta, extra, rotors, changes of ln K and ln D."""
-        weight = 1.0 / self._compute_sigma(turn.residual)[self.row_joint]
+        weight = 1.0 / self.compute_sigma(turn.residual)[self.row_joint]
         windup, p = turn.windup, turn.jacobian.shape[1]
         now = np.concatenate([windup.beta[self.free], turn.extra_values, windup.rotors])
         now = np.append(now, np.zeros(p - len(now)))
         A, b = turn.jacobian * weight[:, None], (turn.residual + turn.jacobian @ now) * weight
         known = np.zeros((len(self.prior), p))
         known[:, : self.prior.shape[1] - 1] = self.prior[:, :-1]
+        if self.is_elastic_fixed:
+            A[:, p - 2 * len(windup.joints) :] = 0.0
         A, b = np.vstack([A, known]), np.append(b, self.prior[:, -1])
         R = np.linalg.qr(np.column_stack([A, b]), mode="r")
         return solve_scaled_least_squares(R[:, :-1], R[:, -1], THRESHOLDS.windup_rank_share) - now
@@ -387,6 +401,24 @@ class WindupProblem(ShortRepr):
                 break
         return turn
 
+    def start_turn(self, windup: Windup) -> _Turn:
+        """Evaluates values that no turn was near."""
+        with np.errstate(all="ignore"):
+            states = [windup.integrate(motion) for motion in self.motions]
+            return self.evaluate(windup, states, np.zeros(self.extra[0].shape[1]))
+
+    def solve_rigid(self, windup: Windup) -> np.ndarray:
+        """Solves for beta (c,) of rigid joints, whose rotors are a part of the links."""
+        still = [np.zeros((len(motion.q), 3, len(windup.joints))) for motion in self.motions]
+        pairs = zip(self.motions, still, strict=True)
+        columns = self.filter_rows([windup.compute_columns(*pair) for pair in pairs])
+        weight = 1.0 / self.compute_sigma(np.concatenate(list(self.y)))[self.row_joint]
+        c = len(windup.beta)
+        A = np.concatenate(list(columns))[:, :c] * weight[:, None]
+        A = np.vstack([A, self.prior[:, :-1]])
+        b = np.append(np.concatenate(list(self.y)) * weight, self.prior[:, -1])
+        return solve_scaled_least_squares(A, b, THRESHOLDS.windup_rank_share)
+
     def fit(self, start: Windup, free_joints: Sequence[int] = ()) -> Windup | None:
         """Fits beta, K and D; None where no start can be integrated.
 
@@ -394,16 +426,13 @@ class WindupProblem(ShortRepr):
             start: with its K and D.
             free_joints: those whose K and D begin at several resonances; the best goes on.
         """
-        extra = np.zeros(self.extra[0].shape[1])
         starts = [start]
         if free_joints:
             of = THRESHOLDS.windup_starts
             starts = [start.set_resonances(self.motions, f, free_joints) for f in of]
         first, turns = THRESHOLDS.first_windup_turns, []
         for windup in starts:
-            with np.errstate(all="ignore"):
-                states = [windup.integrate(motion) for motion in self.motions]
-                turn = self.evaluate(windup, states, extra)
+            turn = self.start_turn(windup)
             if np.isfinite(turn.cost):
                 turns.append(self.iterate(turn, first))
         if not turns:
@@ -413,7 +442,7 @@ class WindupProblem(ShortRepr):
 
     def _compute_spread(self, turn: _Turn) -> np.ndarray:
         """(2 E, 2 E) covariance of ln K and ln D, from sums over blocks of time."""
-        weight = 1.0 / self._compute_sigma(turn.residual)[self.row_joint]
+        weight = 1.0 / self.compute_sigma(turn.residual)[self.row_joint]
         A, block = turn.jacobian * weight[:, None], np.concatenate(list(self.block))
         size = np.linalg.norm(A, axis=0)
         A = A / np.where(size > 0.0, size, 1.0)
@@ -423,3 +452,128 @@ class WindupProblem(ShortRepr):
         E = len(turn.windup.joints)
         root = (sums @ inverse / np.where(size > 0.0, size, 1.0))[:, -2 * E :]
         return np.asarray(root.T @ root)
+
+
+# The rows of an observation, for a robot whose file has elastic joints.
+
+
+@dataclass(frozen=True, eq=False)
+class ElasticEstimate(ShortRepr):
+    """Elastic joints of a robot file, fitted to an observation; s samples, J joints.
+
+    Attributes:
+        windup: the robot, with beta of the rows of the observation, K and D of a wider band.
+        columns: (s, J, c) slopes of the torque by beta, the windup's own included.
+        torque: (s, J) at beta.
+        slopes: (c, 2 E) of beta by ln K and ln D.
+    """
+
+    windup: Windup
+    columns: np.ndarray
+    torque: np.ndarray
+    slopes: np.ndarray
+
+    @property
+    def values(self) -> np.ndarray:
+        """Returns (2 E,) stiffnesses, then dampings."""
+        return np.concatenate([self.windup.stiffness, self.windup.damping])
+
+
+    def list_estimates(self) -> tuple[ParameterEstimate, ...]:
+        """Lists K of all elastic joints, then D, with their standard deviations."""
+        joints = [self.windup.compiled.spec.joints[j] for j in self.windup.joints]
+        sigmas = self.values * np.sqrt(np.diag(self.windup.spread))
+        names = [f"{what}{joint.name}" for what in "KD" for joint in joints]
+        tails = [f"/{joint.unit}" for joint in joints] + [f" s/{joint.unit}" for joint in joints]
+        units = [f"{j.effort_unit}{tail}" for j, tail in zip(joints * 2, tails, strict=True)]
+        every = zip(names, units, self.values.tolist(), sigmas.tolist(), strict=True)
+        return tuple(ParameterEstimate(*one, True, "estimated") for one in every)
+
+
+def fit_elastic_joints(observation: Observation, model: CompiledModel) -> ElasticEstimate | None:
+    """Fits the elastic joints of a robot file; None where its K and D cannot be integrated.
+
+    K and D are those of rows up to the resonances, of the same samples; beta is that of the rows of
+    the observation. Both begin with the values of the file.
+
+    Args:
+        observation: of the robot.
+        model: it.
+    """
+    E = len(model.spec.windups)
+    names = [joint.name for joint in model.spec.joints]
+    every = [model.spec.signals[place].joint for place in model.spec.windups]
+    joints = tuple(names.index(name) for name in every)
+    stiffness, damping = np.array(model.spec.elastic).reshape(2, E)
+    beta = np.zeros(len(model.spec.base))
+    start = Windup(model, joints, beta, np.zeros(E), stiffness, damping)
+    parts = [_widen_rows(part, observation, model) for part in observation.stretches]
+    beta = _build_problem(parts, observation).solve_rigid(start)
+    wide = _build_problem(parts, observation).fit(replace(start, beta=beta))
+    if wide is None:
+        return None
+    problem = replace(_build_problem(observation.stretches, observation), is_elastic_fixed=True)
+    turn = problem.start_turn(wide)
+    if not np.isfinite(turn.cost):
+        return None
+    turn = problem.iterate(turn, THRESHOLDS.max_windup_turns)
+    windup, c = replace(turn.windup, spread=wide.spread), len(beta)
+    weight = 1.0 / problem.compute_sigma(turn.residual)[problem.row_joint]
+    weighted = turn.jacobian * weight[:, None]
+    by_beta, by_elastic = weighted[:, :c], weighted[:, -2 * E :]
+    slopes = -solve_scaled_least_squares(by_beta, by_elastic, THRESHOLDS.windup_rank_share)
+    values = np.concatenate([windup.stiffness, windup.damping])
+    rows = rebuild_observation(model.set_windup(windup.beta, values), observation)
+    used, columns = observation.used, rows.columns.copy()
+    for j in range(used.shape[1]):
+        columns[used[:, j], j] = turn.jacobian[problem.row_joint == j, :c]
+    return ElasticEstimate(windup, columns, rows.predict(windup.beta), slopes)
+
+
+def _widen_rows(
+    part: FilteredSegment, observation: Observation, model: CompiledModel
+) -> FilteredSegment:
+    """The rows of a segment through a parallel filter that lets resonances pass."""
+    chosen = observation.report.processing
+    highest = chosen.position_cutoff or 0.5 / part.segment.step
+    cutoff = max(chosen.parallel_cutoff, min(THRESHOLDS.windup_band, 0.5 * highest))
+    wide = replace(chosen, parallel_cutoff=cutoff, decimation=None)
+    return filter_segment(part.segment, find_shafts(model), wide)
+
+
+def _build_problem(
+    parts: Sequence[FilteredSegment], observation: Observation
+) -> WindupProblem:
+    """The rows of segments, by joint; columns of a few samples, as far as these are smooth."""
+    regressor, thin, motions = observation.regressor, [], []
+    for part in parts:
+        step = part.segment.step
+        every = max(1, int(THRESHOLDS.windup_sampling / step))
+        few = part.thin_samples(every, regressor.read_signals(part.segment)) if every > 1 else part
+        thin.append(few)
+        s = few.segment
+        motions.append(Motion(s.q, s.qd, s.qdd, s.step, s.read))
+    used = np.concatenate([part.used for part in parts])
+    torque = np.concatenate([part.filter_torque() for part in parts])
+    time = np.concatenate([part.segment.time[part.rows.centres] for part in parts])
+    run = np.concatenate([np.full(len(p.rows.centres), p.segment.run) for p in parts])
+    number = np.floor(time / THRESHOLDS.windup_block).astype(int)
+    block = np.unique(np.column_stack([run, number]), axis=0, return_inverse=True)[1].ravel()
+    joints = range(used.shape[1])
+
+    def filter_rows(values: Sequence[np.ndarray]) -> list[np.ndarray]:
+        pairs = zip(thin, values, strict=True)
+        rows = np.concatenate([part.filter_columns(x.__getitem__) for part, x in pairs])
+        return [rows[used[:, j], j] for j in joints]
+
+    weights = compute_prior_weights(observation)
+    prior = np.column_stack([np.diag(weights), np.zeros(len(weights))])
+    return WindupProblem(
+        motions,
+        filter_rows,
+        [torque[used[:, j], j] for j in joints],
+        [block[used[:, j]] for j in joints],
+        np.arange(len(weights)),
+        [np.zeros((int(used[:, j].sum()), 0)) for j in joints],
+        prior[weights > 0.0],
+    )

@@ -93,6 +93,7 @@ from .segments import (
     compute_signals_along as compute_signals_along,
     compute_time_since_reversal as compute_time_since_reversal,
     count_unsettled_samples as count_unsettled_samples,
+    filter_segment as filter_segment,
     find_shafts as find_shafts,
 )
 from .survey import (
