@@ -389,6 +389,11 @@ def _select_candidate(
             "motion would"
         )
     candidate, visible = ranked[0].candidate, ranked[0].visible_share
+    if effect.is_oscillator and candidate.elastic is None:
+        raise DataError(
+            f"{effect.id}: no resonance of {format_location(candidate.joint)} explains these logs; "
+            "move faster, with more changes of acceleration"
+        )
     if effect.acts is EffectTarget.TORQUE:  # least squares make delays too small
         delay = estimate_instrumental(state, candidate)[0]
         return result.FittedCandidate(candidate, delay, state, visible)
@@ -517,6 +522,8 @@ def _fit_robot_file(
     emitted = generate(derive(parse_robot_text(text, "robot with the effect")))
     rows = observe(load_module(emitted.spec, emitted.code))
     fit = identify(rows.fit_observation, "weighted", rows.compiled)
+    if fit.elastic:
+        rows = rows.rebuild_for(rows.compiled.set_windup(fit.beta, fit.elastic_values))
     used = collect_provenance(rows.fit_observation.report)
     model = IdentifiedModel(text, emitted.spec, emitted.code, fit, used, mapping=before.mapping)
     return _FittedModel(model, rows)

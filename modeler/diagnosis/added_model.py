@@ -162,6 +162,11 @@ def insert_candidate(
     if effect.acts is EffectTarget.MOTOR:
         text = _insert_coupling(text, pick, reference)
     parameters = _collect_nonlinear_parameters(pick, reference)
+    if pick.elastic is not None:
+        having = {(p.effect, p.joint) for p in reference.compiled.spec.standard}
+        if ("rotor_inertia", pick.joint) not in having:
+            text = insert_effect(text, "rotor_inertia", pick.joint, {})
+        return insert_effect(text, effect.id, pick.joint, parameters)
     changed = insert_effect(text, effect.id, pick.joint, parameters)
     depends = any(form.names & {"load", "static", "torque"} for form in effect.forms)
     depends = depends or effect.acts is EffectTarget.POSITION
@@ -273,7 +278,9 @@ def describe_last_addition(model: IdentifiedModel) -> list[str]:
         + f" {p.unit}" * (p.unit != "1")
         for p in _find_parameters(model, last)
     ]
-    if lines and last.nonlinear_parameters:
+    fitted = {p.name for p in model.fit.elastic}
+    shapes = {f"{name}{last.joint}" for name in last.nonlinear_parameters}
+    if lines and last.nonlinear_parameters and not shapes <= fitted:
         units, sigmas = _format_nonlinear_units(model, last), last.nonlinear_sigmas
         ends = last.nonlinear_intervals
         texts = [
@@ -296,7 +303,9 @@ def _find_parameters(model: IdentifiedModel, step: Addition) -> list[ParameterEs
     key = step.effect, step.joint
     standard_names = {p.name for p in model.spec.standard if (p.effect, p.joint) == key}
     base = {b.name for b in model.spec.base if b.column_of in standard_names}
-    return [p for p in model.fit.parameters if p.name in base]
+    if step.nonlinear_parameters.keys() == {"K", "D"}:  # an elastic joint has no column
+        base |= {f"{name}{step.joint}" for name in step.nonlinear_parameters}
+    return [p for p in (*model.fit.parameters, *model.fit.elastic) if p.name in base]
 
 
 def is_unneeded(model: IdentifiedModel, step: Addition) -> bool:

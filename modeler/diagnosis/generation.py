@@ -333,7 +333,12 @@ def generate_candidates(
     results = list_candidates(spec, state.joint_scales, temperature, present, known, is_allowed)
     slowest, lowest = find_slowest_ringing(state), np.inf
     ringing = {id(c): c.nonlinear_parameters["f"] for c in results if c.effect.is_oscillator}
-    results = [c for c in results if ringing.get(id(c), lowest) >= slowest]
+    can_ring = spec.closure is None
+    results = [
+        c
+        for c in results
+        if ringing.get(id(c), lowest) >= slowest and (id(c) not in ringing or can_ring)
+    ]
     if waving := {effect.id for effect in known.catalogue if effect.orders}:
         waves = None if keys is None else {joint for effect, joint in keys if effect in waving}
         results += list_ripple_candidates(state, is_allowed, waves)

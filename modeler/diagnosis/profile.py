@@ -24,7 +24,6 @@ from functools import cached_property
 import numpy as np
 
 from modeler.core.manifest import ModuleSpec
-from modeler.diagnosis.elastic_joints import describe_elastic_joint
 from modeler.diagnosis.candidates import (
     Candidate,
     JointScale,
@@ -32,6 +31,7 @@ from modeler.diagnosis.candidates import (
     list_body_parameters,
     to_dense,
 )
+from modeler.diagnosis.elastic_joints import describe_elastic_joint
 from modeler.diagnosis.ranking import build_time_blocks
 from modeler.diagnosis.signals import compute_tilt_axes
 from modeler.diagnosis.state import State

@@ -183,7 +183,11 @@ class CandidateScan:
         """Elastic joints that explain a part of what leads: fitted, they explain far more."""
         share, most = THRESHOLDS.min_windup_share, THRESHOLDS.max_fitted_windups
         rings = [j for j in best if j.candidate.effect.is_oscillator and j.is_possible]
-        return [j for j in rings[:most] if j.total_share > share * best[0].total_share and j not in close]
+        return [
+            j
+            for j in rings[:most]
+            if j.total_share > share * best[0].total_share and j not in close
+        ]
 
     def refine_candidate(
         self, score: ScoredCandidate, starts: Sequence[Candidate]

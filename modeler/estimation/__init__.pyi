@@ -78,8 +78,8 @@ from .result import (
     FitResult as FitResult,
     compute_friction_by_direction as compute_friction_by_direction,
 )
-from .windup import Motion as Motion, Windup as Windup, WindupProblem as WindupProblem
 from .single_joint import JointDirections as JointDirections
 from .thresholds import THRESHOLDS as THRESHOLDS
 from .two_step import TwoStepFit as TwoStepFit, identify_in_two_steps as identify_in_two_steps
 from .verdict import find_contradictions as find_contradictions, judge_fit as judge_fit
+from .windup import Motion as Motion, Windup as Windup, WindupProblem as WindupProblem

@@ -25,7 +25,6 @@ from scipy.linalg import solve_banded
 from modeler.core.json import ShortRepr
 from modeler.estimation.parameters import ParameterEstimate
 from modeler.estimation.thresholds import THRESHOLDS
-from modeler.numerics.filters import SPREAD
 from modeler.numerics.least_squares import solve_scaled_least_squares
 from modeler.regression import (
     FilteredSegment,
@@ -121,9 +120,7 @@ class Windup(ShortRepr):
                 rotors[:, j, k] = motion.qdd[:, j]
         return np.concatenate([np.where(self.is_link_column, links, motors), rotors], axis=2)
 
-    def compute_slopes(
-        self, motion: Motion, s: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def compute_slopes(self, motion: Motion, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Computes the links' torque (n, J), and its slopes G, B, M (3, n, J, E).
 
         The torque is quadratic in the speeds and linear in the accelerations.
@@ -146,9 +143,7 @@ class Windup(ShortRepr):
             slopes[2, :, :, i] = evaluate(2, j, 1.0) - torque
         return torque, slopes
 
-    def solve_linear(
-        self, step: float, slopes: np.ndarray, right: np.ndarray
-    ) -> np.ndarray:
+    def solve_linear(self, step: float, slopes: np.ndarray, right: np.ndarray) -> np.ndarray:
         """Solves M x'' + (D + B) x' + (K + G) x = r (n, E, R), at rest first: (n, 3, E, R).
 
         By Newmark's method with beta = 1/12, gamma = 1/2, of fourth order in the step but for the
@@ -320,7 +315,7 @@ class WindupProblem(ShortRepr):
                 return lost
             columns = windup.compute_columns(motion, s)
             forces = windup.stiffness * s[:, 0], windup.damping * s[:, 1]
-            sides = [np.where(links, columns[:, windup.joints], 0.0)[:, :, : c]]
+            sides = [np.where(links, columns[:, windup.joints], 0.0)[:, :, :c]]
             sides += [-force[:, :, None] * np.eye(E) for force in forces]
             moved = windup.solve_linear(motion.step, slopes, np.concatenate(sides, axis=2))
             along = np.moveaxis(slopes, 0, 2).reshape(*columns.shape[:2], 3 * E)
@@ -478,7 +473,6 @@ class ElasticEstimate(ShortRepr):
         """Returns (2 E,) stiffnesses, then dampings."""
         return np.concatenate([self.windup.stiffness, self.windup.damping])
 
-
     def list_estimates(self) -> tuple[ParameterEstimate, ...]:
         """Lists K of all elastic joints, then D, with their standard deviations."""
         joints = [self.windup.compiled.spec.joints[j] for j in self.windup.joints]
@@ -541,9 +535,7 @@ def _widen_rows(
     return filter_segment(part.segment, find_shafts(model), wide)
 
 
-def _build_problem(
-    parts: Sequence[FilteredSegment], observation: Observation
-) -> WindupProblem:
+def _build_problem(parts: Sequence[FilteredSegment], observation: Observation) -> WindupProblem:
     """The rows of segments, by joint; columns of a few samples, as far as these are smooth."""
     regressor, thin, motions = observation.regressor, [], []
     for part in parts:
