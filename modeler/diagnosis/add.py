@@ -270,7 +270,9 @@ def _compute_parameter_shifts(before: IdentifiedModel, after: IdentifiedModel) -
 def _explain_weak_evidence(pick: result.FittedCandidate, score: scoring.Score) -> str:
     """Why an effect that was requested is possible only; empty if it may be named."""
     candidate, whole = pick.candidate, score.whole
-    errors = score.errors.get(candidate.joint or "", (whole.before, whole.after))
+    errors = whole.before, whole.after
+    if candidate.elastic is None:  # an elastic joint moves all links behind it
+        errors = score.errors.get(candidate.joint or "", errors)
     against = ""
     if candidate in pick.state.picks:
         parameters = name_parameters(pick.state, candidate, pick.values)

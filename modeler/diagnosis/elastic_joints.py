@@ -8,7 +8,7 @@ import numpy as np
 from modeler.diagnosis.candidates import Candidate, ElasticFit, describe_motion, to_dense
 from modeler.diagnosis.state import State
 from modeler.diagnosis.thresholds import THRESHOLDS
-from modeler.estimation import Windup, WindupProblem
+from modeler.estimation import WindupProblem, read_windup
 
 
 def fit_elastic_joint(state: State, candidate: Candidate) -> Candidate | None:
@@ -23,8 +23,7 @@ def fit_elastic_joint(state: State, candidate: Candidate) -> Candidate | None:
         return None
     known = [pick.elastic.windup for pick in state.picks if pick.elastic is not None]
     others = max(known, key=lambda windup: len(windup.joints), default=None)
-    none = np.zeros(0)
-    start = others or Windup(state.data.compiled, (), state.beta, none, none, none)
+    start = others or read_windup(state.data.compiled, state.beta)
     problem = build_windup_problem(state)
     fitted = problem.fit(start.add_joint(candidate.index), [candidate.index])
     if fitted is None:

@@ -438,6 +438,7 @@ def _is_refinement(search: Search, k: int) -> bool:
             continue
         alike = first.joint == later.joint and first.effect.family == later.effect.family
         moves = first.effect is later.effect and first.effect.acts is EffectTarget.POSITION
+        moves = moves and later.elastic is None  # the fit of several keeps them apart
         beside = moves and abs(first.index - later.index) <= 1
         if (alike or beside) and step.score.torque_share < earlier.score.torque_share:
             return True

@@ -323,6 +323,7 @@ def generate_candidates(
     temperature = {joint.name: joint.name in state.reference.temperature for joint in spec.joints}
     changed = state.data.fixed_parameters is not None
     present = set() if changed else {(p.effect, p.joint) for p in spec.standard}
+    windups = {spec.signals[place].joint for place in spec.windups}
     every = state.data.stated_effects.catalogue
     asked = [e for e in every if (only is None and not e.is_learned) or e.id == only]
     known = replace(state.data.stated_effects, catalogue=asked)
@@ -331,14 +332,11 @@ def generate_candidates(
         return not is_ruled_out(effect, joint, without)
 
     results = list_candidates(spec, state.joint_scales, temperature, present, known, is_allowed)
-    slowest, lowest = find_slowest_ringing(state), np.inf
+    is_tree, lowest = spec.closure is None, np.inf  # loops read no windup
+    slowest = find_slowest_ringing(state)
     ringing = {id(c): c.nonlinear_parameters["f"] for c in results if c.effect.is_oscillator}
-    can_ring = spec.closure is None
-    results = [
-        c
-        for c in results
-        if ringing.get(id(c), lowest) >= slowest and (id(c) not in ringing or can_ring)
-    ]
+    results = [c for c in results if ringing.get(id(c), lowest) >= slowest]
+    results = [c for c in results if id(c) not in ringing or (is_tree and c.joint not in windups)]
     if waving := {effect.id for effect in known.catalogue if effect.orders}:
         waves = None if keys is None else {joint for effect, joint in keys if effect in waving}
         results += list_ripple_candidates(state, is_allowed, waves)

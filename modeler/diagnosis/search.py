@@ -163,8 +163,8 @@ class CandidateScan:
         leading = left.best[: THRESHOLDS.max_refined_alternatives]
         least = THRESHOLDS.min_refined_gain
         close = [j for j in leading if j.is_possible and j.is_near(leading[0])]
-        close += self._list_likely_windups(left.best, close)
         close = [j for j in close if j.variance_reduction > least]
+        close += [j for j in self._list_likely_windups(left.best) if j not in close]
         # Of effects that were not refined, only the best shapes may win still.
         refined = {}
         for item in close:
@@ -177,17 +177,16 @@ class CandidateScan:
         best = [refined.get(j.key, j) for j in left.best]
         return select_best(self.state, sorted(best, key=lambda j: -j.total_reduction))
 
-    def _list_likely_windups(
-        self, best: Sequence[ScoredCandidate], close: Sequence[ScoredCandidate]
-    ) -> list[ScoredCandidate]:
-        """Elastic joints that explain a part of what leads: fitted, they explain far more."""
-        share, most = THRESHOLDS.min_windup_share, THRESHOLDS.max_fitted_windups
+    def _list_likely_windups(self, best: Sequence[ScoredCandidate]) -> list[ScoredCandidate]:
+        """Lists joints that may be elastic by a column that is right for slow motion only.
+
+        Beside another elastic joint that column says nothing.
+        """
+        state, share = self.state, THRESHOLDS.min_windup_share
         rings = [j for j in best if j.candidate.effect.is_oscillator and j.is_possible]
-        return [
-            j
-            for j in rings[:most]
-            if j.total_share > share * best[0].total_share and j not in close
-        ]
+        others = any(pick.elastic is not None for pick in state.picks) or state.spec.windups
+        least = -np.inf if others else share * best[0].total_share
+        return [j for j in rings[: THRESHOLDS.max_fitted_windups] if j.total_share > least]
 
     def refine_candidate(
         self, score: ScoredCandidate, starts: Sequence[Candidate]

@@ -82,4 +82,9 @@ from .single_joint import JointDirections as JointDirections
 from .thresholds import THRESHOLDS as THRESHOLDS
 from .two_step import TwoStepFit as TwoStepFit, identify_in_two_steps as identify_in_two_steps
 from .verdict import find_contradictions as find_contradictions, judge_fit as judge_fit
-from .windup import Motion as Motion, Windup as Windup, WindupProblem as WindupProblem
+from .windup import (
+    Motion as Motion,
+    Windup as Windup,
+    WindupProblem as WindupProblem,
+    read_windup as read_windup,
+)

@@ -261,6 +261,16 @@ class Windup(ShortRepr):
         return replace(self, stiffness=stiffness, damping=damping)
 
 
+def read_windup(compiled: CompiledModel, beta: np.ndarray) -> Windup:
+    """Reads the elastic joints that a module has, with the values that it winds up with."""
+    spec, E = compiled.spec, len(compiled.spec.windups)
+    names = [joint.name for joint in spec.joints]
+    joints = tuple(names.index(spec.signals[place].joint) for place in spec.windups)
+    values = spec.elastic if compiled.windup_values is None else compiled.windup_values[1]
+    stiffness, damping = np.array(values, dtype=float).reshape(2, E)
+    return Windup(compiled, joints, beta, np.zeros(E), stiffness, damping)
+
+
 @dataclass(frozen=True, eq=False)
 class _Turn:
     """One evaluation of a fit."""
@@ -494,13 +504,8 @@ def fit_elastic_joints(observation: Observation, model: CompiledModel) -> Elasti
         observation: of the robot.
         model: it.
     """
-    E = len(model.spec.windups)
-    names = [joint.name for joint in model.spec.joints]
-    every = [model.spec.signals[place].joint for place in model.spec.windups]
-    joints = tuple(names.index(name) for name in every)
-    stiffness, damping = np.array(model.spec.elastic).reshape(2, E)
-    beta = np.zeros(len(model.spec.base))
-    start = Windup(model, joints, beta, np.zeros(E), stiffness, damping)
+    start = read_windup(model, np.zeros(len(model.spec.base)))
+    E = len(start.joints)
     parts = [_widen_rows(part, observation, model) for part in observation.stretches]
     beta = _build_problem(parts, observation).solve_rigid(start)
     wide = _build_problem(parts, observation).fit(replace(start, beta=beta))
@@ -511,7 +516,7 @@ def fit_elastic_joints(observation: Observation, model: CompiledModel) -> Elasti
     if not np.isfinite(turn.cost):
         return None
     turn = problem.iterate(turn, THRESHOLDS.max_windup_turns)
-    windup, c = replace(turn.windup, spread=wide.spread), len(beta)
+    windup, c = replace(turn.windup, spread=wide.spread), len(start.beta)
     weight = 1.0 / problem.compute_sigma(turn.residual)[problem.row_joint]
     weighted = turn.jacobian * weight[:, None]
     by_beta, by_elastic = weighted[:, :c], weighted[:, -2 * E :]
@@ -537,14 +542,15 @@ def _widen_rows(
 
 def _build_problem(parts: Sequence[FilteredSegment], observation: Observation) -> WindupProblem:
     """The rows of segments, by joint; columns of a few samples, as far as these are smooth."""
-    regressor, thin, motions = observation.regressor, [], []
+    thin, motions = [], []
     for part in parts:
         step = part.segment.step
         every = max(1, int(THRESHOLDS.windup_sampling / step))
-        few = part.thin_samples(every, regressor.read_signals(part.segment)) if every > 1 else part
+        read = observation.regressor.read_signals(part.segment)
+        few = part.thin_samples(every, read) if every > 1 else part
         thin.append(few)
-        s = few.segment
-        motions.append(Motion(s.q, s.qd, s.qdd, s.step, s.read))
+        s, read = few.segment, None if read is None else read[::every]
+        motions.append(Motion(s.q, s.qd, s.qdd, s.step, read))
     used = np.concatenate([part.used for part in parts])
     torque = np.concatenate([part.filter_torque() for part in parts])
     time = np.concatenate([part.segment.time[part.rows.centres] for part in parts])
