@@ -138,7 +138,8 @@ class Model(IdentifiedModel):
     def _parameters(self) -> dict[str, Parameter]:
         sums = {base.name: views.format_relation(base) or base.column_of for base in self.spec.base}
         parameters = {}
-        for one in (*self.fit.gains, *self.fit.parameters, *self.fit.loads):
+        every = (*self.fit.gains, *self.fit.parameters, *self.fit.elastic, *self.fit.loads)
+        for one in every:
             terms = sums.get(one.name, one.name)
             relation = "" if terms == one.name else f"{one.name} = {terms}"
             parameters[one.name] = Parameter(**vars(one), relation=relation)

@@ -30,13 +30,7 @@ from modeler.numerics.least_squares import (
     compress_rows,
     solve_scaled_least_squares,
 )
-from modeler.regression import (
-    Observation,
-    compute_prior_weights,
-    compute_triangles,
-    is_streamed,
-    rebuild_observation,
-)
+from modeler.regression import Observation, compute_prior_weights, compute_triangles, is_streamed
 from modeler.runtime import CompiledModel
 
 _REFUSALS = {
@@ -45,6 +39,7 @@ _REFUSALS = {
     "in memory; expected {capable}, or a part of the log, FILE@START:END",
     "windows": "--method {method}: the energy model takes {capable}; leave out --method or --model "
     "energy",
+    "elastic": "--method {method}: the robot has elastic joints; expected {capable}",
 }
 """What an estimator may work on, and the sentence for one that does not."""
 
@@ -57,7 +52,7 @@ class Estimator:
         about: id, title, law, source, and when not to use it.
         estimate: the function. Raises DataError where the problem gives it nothing to work on.
         works_on: "rows"; "triangles", if it needs no row again once these are there; "windows" of
-            the energy model; "loads", if some logs may carry one.
+            the energy model; "loads", if some logs may carry one; "elastic" joints.
     """
 
     about: EstimatorInfo
@@ -96,7 +91,7 @@ METHODS: dict[Method, Estimator] = {
         estimate,
         ("rows",)
         + ("triangles", "windows") * (id in _LEAST_SQUARES)
-        + ("loads",) * (id in _WITH_LOADS),
+        + ("loads", "elastic") * (id in _WITH_LOADS),
     )
     for id, estimate in _ESTIMATES.items()
 }
@@ -233,39 +228,16 @@ def identify_elastic(
 ) -> tuple[FitResult, Equations]:
     """Returns the fit of a robot with elastic joints, K and D too; and the equations of beta.
 
-    These are linear about the fit: W holds the slopes of the torque by beta, with what beta does to
-    the windup, and y is less by what W beta there is beyond the torque.
+    These are linear about the fit: W holds the slopes of the torque by beta, the windup's included.
 
     Raises:
-        DataError: as `identify`; or no windup can be integrated, or no such method for it.
+        DataError: as `identify`; or no windup can be integrated.
     """
-    if method not in _WITH_LOADS:
-        raise DataError(
-            f"--method {method}: {model.spec.robot} has elastic joints; expected "
-            f"{', '.join(_WITH_LOADS[:-1])} or {_WITH_LOADS[-1]}"
-        )
+    find_method(method, "elastic")
     about = fit_elastic_joints(observation, model)
-    if about is None:
-        raise DataError(
-            f"{', '.join(observation.logs)}: no motion of the elastic joints of {model.spec.robot} "
-            "fits these logs; check K and D in the robot file"
-        )
-    beta = about.windup.beta
-    seen = rebuild_observation(model.set_windup(beta, about.values), observation)
-    vars(seen)["columns"] = about.columns
-    y = (observation.torque - about.torque + about.columns @ beta)[observation.used]
+    seen, y = about.linearise_rows(observation)
     equations = Equations(seen, build_base_equations(seen).extra, y, seen.names, seen.units)
-    fit = fit_equations(seen, equations, method, model, below)
-    more = about.slopes @ about.windup.spread @ about.slopes.T
-    known = np.array([p.sigma is not None for p in fit.parameters])
-    covariance = fit.covariance + more * np.outer(known, known)
-    sigma = np.sqrt(np.diag(covariance))
-    every = tuple(
-        dataclasses.replace(p, sigma=float(s)) if p.sigma is not None else p
-        for p, s in zip(fit.parameters, sigma, strict=True)
-    )
-    values = {"parameters": every, "covariance": covariance, "elastic": about.list_estimates()}
-    return dataclasses.replace(fit, **values), equations
+    return about.extend_fit(fit_equations(seen, equations, method, model, below)), equations
 
 
 def build_base_equations(observation: Observation) -> Equations:

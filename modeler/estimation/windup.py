@@ -22,14 +22,17 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import solve_banded
 
+from modeler.core.errors import DataError
 from modeler.core.json import ShortRepr
 from modeler.estimation.parameters import ParameterEstimate
+from modeler.estimation.result import FitResult
 from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import solve_scaled_least_squares
 from modeler.regression import (
     FilteredSegment,
     Observation,
     compute_prior_weights,
+    compute_signals,
     filter_segment,
     find_shafts,
     rebuild_observation,
@@ -97,13 +100,11 @@ class Windup(ShortRepr):
         here = np.array([spec.joints[j].name in rotors for j in self.joints])
         return self.lacks_rotor & here
 
-    def _shift(self, motion: Motion, s: np.ndarray) -> list[np.ndarray]:
+    def _shift(self, motion: Motion, s: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The motion of the links, for s (n, 3, E)."""
-        moved = []
-        for k, x in enumerate((motion.q, motion.qd, motion.qdd)):
-            x = x.copy()
-            x[:, self.joints] -= s[:, k]
-            moved.append(x)
+        moved = motion.q.copy(), motion.qd.copy(), motion.qdd.copy()
+        for k, x in enumerate(moved):
+            x[:, list(self.joints)] -= s[:, k]
         return moved
 
     def _read(self, motion: Motion) -> np.ndarray | None:
@@ -112,7 +113,8 @@ class Windup(ShortRepr):
     def compute_columns(self, motion: Motion, s: np.ndarray) -> np.ndarray:
         """Computes the columns (n, J, c + E): links where s has them, motors as measured."""
         n, J = motion.q.shape
-        links = self.compiled.base_regressor(*self._shift(motion, s), self._read(motion))
+        q, qd, qdd = self._shift(motion, s)
+        links = self.compiled.base_regressor(q, qd, qdd, self._read(motion))
         motors = self.compiled.base_regressor(motion.q, motion.qd, motion.qdd, motion.signals)
         rotors = np.zeros((n, J, len(self.joints)))
         for k, j in enumerate(self.joints):
@@ -126,15 +128,16 @@ class Windup(ShortRepr):
         The torque is quadratic in the speeds and linear in the accelerations.
         """
         links = np.where(self.is_link_column, self.beta, 0.0)
-        moved, read = self._shift(motion, s), self._read(motion)
+        q, qd, qdd = moved = self._shift(motion, s)
+        read = self._read(motion)
 
         def evaluate(k: int, j: int, size: float) -> np.ndarray:
             there = list(moved)
             there[k] = there[k].copy()
             there[k][:, j] += size
-            return self.compiled.inverse_dynamics(*there, links, read)
+            return self.compiled.inverse_dynamics(there[0], there[1], there[2], links, read)
 
-        torque = self.compiled.inverse_dynamics(*moved, links, read)
+        torque = self.compiled.inverse_dynamics(q, qd, qdd, links, read)
         slopes = np.empty((3, *torque.shape, len(self.joints)))
         for i, j in enumerate(self.joints):
             for k, size in enumerate((THRESHOLDS.windup_position_step, 1.0)):
@@ -165,9 +168,13 @@ class Windup(ShortRepr):
                     i, k = row * E + a, column * E + b
                     banded[up + i - k, at + k] = block[first:, a, b]
 
-        put(eye, 0, 0), put(-h * h * share * eye, 0, 2, 1)
-        put(eye, 1, 1), put(-0.5 * h * eye, 1, 2, 1)
-        put(eye * self.stiffness + G, 2, 0), put(eye * self.damping + B, 2, 1), put(M, 2, 2)
+        put(eye, 0, 0)
+        put(-h * h * share * eye, 0, 2, 1)
+        put(eye, 1, 1)
+        put(-0.5 * h * eye, 1, 2, 1)
+        put(eye * self.stiffness + G, 2, 0)
+        put(eye * self.damping + B, 2, 1)
+        put(M, 2, 2)
         before = [(0, 0, -1.0), (0, 1, -h), (0, 2, -h * h * (0.5 - share))]
         for row, column, value in (*before, (1, 1, -1.0), (1, 2, -0.5 * h)):
             for a in range(E):
@@ -175,10 +182,9 @@ class Windup(ShortRepr):
                 banded[up + i - k, width * np.arange(n - 1) + k] = value
         sides = np.zeros((n, 3, E, R))
         sides[:, 2] = right
-        rest = np.linalg.solve(eye[0] * self.stiffness + G[0], right[0])
-        sides[0, 0] = rest
         flat = sides.reshape(width * n, R)
         try:
+            sides[0, 0] = np.linalg.solve(eye[0] * self.stiffness + G[0], right[0])
             x = solve_banded((low, up), banded, flat, check_finite=False, overwrite_ab=True)
         except np.linalg.LinAlgError:  # an inertia that is not positive
             x = np.full(flat.shape, np.nan)
@@ -325,7 +331,7 @@ class WindupProblem(ShortRepr):
                 return lost
             columns = windup.compute_columns(motion, s)
             forces = windup.stiffness * s[:, 0], windup.damping * s[:, 1]
-            sides = [np.where(links, columns[:, windup.joints], 0.0)[:, :, :c]]
+            sides = [np.where(links, columns[:, list(windup.joints)], 0.0)[:, :, :c]]
             sides += [-force[:, :, None] * np.eye(E) for force in forces]
             moved = windup.solve_linear(motion.step, slopes, np.concatenate(sides, axis=2))
             along = np.moveaxis(slopes, 0, 2).reshape(*columns.shape[:2], 3 * E)
@@ -361,13 +367,14 @@ class WindupProblem(ShortRepr):
         windup, p = turn.windup, turn.jacobian.shape[1]
         now = np.concatenate([windup.beta[self.free], turn.extra_values, windup.rotors])
         now = np.append(now, np.zeros(p - len(now)))
-        A, b = turn.jacobian * weight[:, None], (turn.residual + turn.jacobian @ now) * weight
+        A = turn.jacobian * weight[:, None]
+        b = (turn.residual + turn.jacobian @ now) * weight
         known = np.zeros((len(self.prior), p))
         known[:, : self.prior.shape[1] - 1] = self.prior[:, :-1]
         if self.is_elastic_fixed:
             A[:, p - 2 * len(windup.joints) :] = 0.0
         A, b = np.vstack([A, known]), np.append(b, self.prior[:, -1])
-        R = np.linalg.qr(np.column_stack([A, b]), mode="r")
+        R = np.asarray(np.linalg.qr(np.column_stack([A, b]), mode="r"))
         return solve_scaled_least_squares(R[:, :-1], R[:, -1], THRESHOLDS.windup_rank_share) - now
 
     def _move(self, turn: _Turn, step: np.ndarray, share: float) -> _Turn:
@@ -493,9 +500,27 @@ class ElasticEstimate(ShortRepr):
         every = zip(names, units, self.values.tolist(), sigmas.tolist(), strict=True)
         return tuple(ParameterEstimate(*one, True, "estimated") for one in every)
 
+    def linearise_rows(self, observation: Observation) -> tuple[Observation, np.ndarray]:
+        """Returns the observation with W the slopes by beta, and the y (rows,) that goes with W."""
+        model = self.windup.compiled.set_windup(self.windup.beta, self.values)
+        seen = rebuild_observation(model, observation)
+        vars(seen)["columns"] = self.columns
+        torque = observation.torque - self.torque + self.columns @ self.windup.beta
+        return seen, torque[observation.used]
 
-def fit_elastic_joints(observation: Observation, model: CompiledModel) -> ElasticEstimate | None:
-    """Fits the elastic joints of a robot file; None where its K and D cannot be integrated.
+    def extend_fit(self, fit: FitResult) -> FitResult:
+        """Returns the fit with K and D, and with what these leave open in its covariance."""
+        is_known = np.array([p.sigma is not None for p in fit.parameters])
+        more = self.slopes @ self.windup.spread @ self.slopes.T
+        covariance = fit.covariance + more * np.outer(is_known, is_known)
+        pairs = zip(fit.parameters, np.sqrt(np.diag(covariance)).tolist(), strict=True)
+        every = tuple(p if p.sigma is None else replace(p, sigma=sigma) for p, sigma in pairs)
+        elastic = self.list_estimates()
+        return replace(fit, parameters=every, covariance=covariance, elastic=elastic)
+
+
+def fit_elastic_joints(observation: Observation, model: CompiledModel) -> ElasticEstimate:
+    """Fits the elastic joints of a robot file.
 
     K and D are those of rows up to the resonances, of the same samples; beta is that of the rows of
     the observation. Both begin with the values of the file.
@@ -503,18 +528,23 @@ def fit_elastic_joints(observation: Observation, model: CompiledModel) -> Elasti
     Args:
         observation: of the robot.
         model: it.
+
+    Raises:
+        DataError: no K and D near those of the file can be integrated.
     """
     start = read_windup(model, np.zeros(len(model.spec.base)))
     E = len(start.joints)
     parts = [_widen_rows(part, observation, model) for part in observation.stretches]
-    beta = _build_problem(parts, observation).solve_rigid(start)
-    wide = _build_problem(parts, observation).fit(replace(start, beta=beta))
+    wide_problem = _build_problem(parts, observation, model)
+    beta = wide_problem.solve_rigid(start)
+    wide = wide_problem.fit(replace(start, beta=beta))
     if wide is None:
-        return None
-    problem = replace(_build_problem(observation.stretches, observation), is_elastic_fixed=True)
+        raise _build_error(observation, model)
+    problem = _build_problem(observation.stretches, observation, model)
+    problem = replace(problem, is_elastic_fixed=True)
     turn = problem.start_turn(wide)
     if not np.isfinite(turn.cost):
-        return None
+        raise _build_error(observation, model)
     turn = problem.iterate(turn, THRESHOLDS.max_windup_turns)
     windup, c = replace(turn.windup, spread=wide.spread), len(start.beta)
     weight = 1.0 / problem.compute_sigma(turn.residual)[problem.row_joint]
@@ -529,6 +559,13 @@ def fit_elastic_joints(observation: Observation, model: CompiledModel) -> Elasti
     return ElasticEstimate(windup, columns, rows.predict(windup.beta), slopes)
 
 
+def _build_error(observation: Observation, model: CompiledModel) -> DataError:
+    return DataError(
+        f"{', '.join(observation.logs)}: no motion of the elastic joints of {model.spec.robot} "
+        "fits these logs; check K and D in the robot file"
+    )
+
+
 def _widen_rows(
     part: FilteredSegment, observation: Observation, model: CompiledModel
 ) -> FilteredSegment:
@@ -540,13 +577,15 @@ def _widen_rows(
     return filter_segment(part.segment, find_shafts(model), wide)
 
 
-def _build_problem(parts: Sequence[FilteredSegment], observation: Observation) -> WindupProblem:
+def _build_problem(
+    parts: Sequence[FilteredSegment], observation: Observation, model: CompiledModel
+) -> WindupProblem:
     """The rows of segments, by joint; columns of a few samples, as far as these are smooth."""
     thin, motions = [], []
     for part in parts:
         step = part.segment.step
         every = max(1, int(THRESHOLDS.windup_sampling / step))
-        read = observation.regressor.read_signals(part.segment)
+        read = compute_signals(model, part.segment)
         few = part.thin_samples(every, read) if every > 1 else part
         thin.append(few)
         s, read = few.segment, None if read is None else read[::every]

@@ -219,10 +219,6 @@ class ModelRegressor:
             state = reduce_rows(state.pattern, columns, torque[rows], used, state)
         return state
 
-    def read_signals(self, segment: Segment) -> np.ndarray | None:
-        """Returns (n, m) what effects read besides the motion; None without any."""
-        return self._signals[segment]
-
     def _read_signals(self, s: Segment, w: slice | np.ndarray) -> np.ndarray | None:
         read = self._signals[s]
         return None if read is None else read[w]
