@@ -51,8 +51,8 @@ class Estimator:
     Attributes:
         about: id, title, law, source, and when not to use it.
         estimate: the function. Raises DataError where the problem gives it nothing to work on.
-        works_on: "rows"; "triangles", if it needs no row again once these are there; "windows" of
-            the energy model; "loads", if some logs may carry one; "elastic" joints.
+        works_on: "rows"; "triangles", if no row is needed again once these are there; "windows" of
+            the energy model; "loads", if logs may carry some; "elastic" joints.
     """
 
     about: EstimatorInfo
@@ -215,8 +215,7 @@ def identify(
             `select_essential_parameters`.
 
     Raises:
-        DataError: fewer rows than parameters, no torque at all, no such method, or one that these
-            logs or this robot give nothing to work on.
+        DataError: fewer rows than parameters, no torque, no such method, or nothing it works on.
     """
     if model is not None and model.spec.windups:
         return identify_elastic(observation, method, model, below)[0]
