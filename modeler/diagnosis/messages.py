@@ -386,6 +386,7 @@ def describe_rejected(diagnosis: Diagnosis) -> list[str]:
     search = diagnosis.search
     timing = [score for score in search.last.ranked if not score.is_confirmed]
     timing = [s for s in timing if Requirement.LAG not in s.candidate.effect.needs]
+    timing = [s for s in timing if not s.candidate.effect.is_oscillator]  # its column is a hint
     named = {(f.effect, f.joint) for f in (*diagnosis.effects, *diagnosis.refinements)}
     dropped_scores = [step.score for step in search.steps if step.candidate.key not in named]
     lines: dict[Key, tuple[float, str]] = {}

@@ -184,6 +184,8 @@ class CandidateScan:
         """
         state, share = self.state, THRESHOLDS.min_windup_share
         rings = [j for j in best if j.candidate.effect.is_oscillator and j.is_possible]
+        if not rings:
+            return []
         others = any(pick.elastic is not None for pick in state.picks) or state.spec.windups
         least = -np.inf if others else share * best[0].total_share
         return [j for j in rings[: THRESHOLDS.max_fitted_windups] if j.total_share > least]

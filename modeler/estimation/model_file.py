@@ -232,7 +232,8 @@ class IdentifiedModel(Result, Document):
         except ValueError:
             table = {}
         mapping = self.mapping or (table if isinstance(table, Mapping) else {})
-        return load_module(self.spec, self.sources, mapping).set_windup(self.beta, self.fit.elastic_values)
+        compiled = load_module(self.spec, self.sources, mapping)
+        return compiled.set_windup(self.beta, self.fit.elastic_values)
 
 
 def collect_provenance(report: DataReport) -> tuple[LogProvenance, ...]:

@@ -190,7 +190,8 @@ def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
 
     vetoed = [at("spring", "1", 0.3), at("spring", "1", 0.5), at("drift", "2", 0.4)]
     vetoed.append(at("offset", "1", 0.8))  # named later
-    ranked = [at("elasticity", "2", 0.6, confirmed=False), at("stribeck", "3", 0.9)]
+    ranked = [at("elasticity", "3", 0.7, confirmed=False), at("stribeck", "3", 0.9)]
+    ranked.append(at("encoder_offset", "2", 0.6, confirmed=False))
     last, named = SimpleNamespace(ranked=ranked), SimpleNamespace(effect="offset", joint="1")
     steps = [SimpleNamespace(candidate=SimpleNamespace(key=("offset", "1")), score=None)]
     whole = SimpleNamespace(vetoed_candidates=vetoed, steps=steps, last=last)
@@ -198,7 +199,7 @@ def test_what_was_refused_is_told_once_the_best_first_with_its_reason() -> None:
     for line, (what, why) in zip(
         lines,
         (
-            ("(elasticity), joint 2, explains 60 %", "errors of timing"),
+            ("(encoder_offset), joint 2, explains 60 %", "errors of timing"),
             ("(spring), joint 1, explains 50 %", "motion left out"),
             ("(drift), joint 2, explains 40 %", "would drive"),
         ),

@@ -37,20 +37,6 @@ def pick(name):
     return Candidate(effect, effect.forms[0], "1", 0, {"f": 10.0})
 
 
-def rung(inertia):
-    """Compliance of a joint that rings at 10 Hz with that inertia, rad/(N m)."""
-    return {"Cj1": 1.0 / (inertia * (2 * np.pi * 10.0) ** 2), "f": 10.0}
-
-
-@pytest.mark.parametrize(("unit", "named"), [("rad", "20 kg m2"), ("m", "20 kg on this")])
-def test_what_rings_with_ten_times_the_inertia_is_not_this_joint(unit, named):
-    for ratio in (0.3, 1.0, 3.0):
-        assert find_caveat(state(unit), pick("elasticity"), rung(ratio * INERTIA)) == ""
-    text = find_caveat(state(unit), pick("elasticity"), rung(10.0 * INERTIA))
-    assert named in text and "the links have 2 kg" in text and "something else rings" in text
-    assert find_caveat(state(unit), pick("elasticity"), rung(0.1 * INERTIA))
-
-
 @pytest.mark.parametrize(("level", "said"), [(2.0, False), (5.0, True)])
 def test_a_part_of_the_friction_is_no_larger_than_all_of_it(level, said):
     friction = [

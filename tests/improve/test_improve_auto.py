@@ -37,11 +37,11 @@ def test_what_holds_on_the_fitted_logs_only_is_left_out(case: Case) -> None:
 
 def test_what_cannot_be_added_is_left_out_with_its_reason(case: Case, sprung: Mended) -> None:
     first = sprung.diagnosis.effects[0]
-    findings = [dataclasses.replace(first, effect="elasticity", joint="2", pick=None), first]
+    findings = [dataclasses.replace(first, effect="backlash", joint="2", pick=None), first]
     better, left_out = add_findings(sprung.model, case.compiled, findings, sprung.logs)
     assert [step.effect for step in better.history] == ["", first.effect]
     (line,) = left_out
-    assert line.startswith("left out: elasticity, joint 2 (elasticity: cannot be added (the joint")
+    assert line.startswith("left out: backlash, joint 2 (backlash: cannot be added (play has no")
 
 
 def test_what_is_perhaps_missing_is_left_out_by_auto_and_told_by_add(case, sprung, monkeypatch):
