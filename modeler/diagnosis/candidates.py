@@ -93,6 +93,12 @@ class ElasticFit(ShortRepr):
         torque = self.windup.compute_torque_change(motion)
         return torque if self.others is None else torque - self.others.compute_torque_change(motion)
 
+    def is_resolved(self, segments: Sequence[Signals]) -> bool:
+        """Returns whether the samples of the segments resolve its resonances."""
+        motions = [describe_motion(signals) for signals in segments]
+        highest = float(self.windup.compute_resonances(motions)[0].max())
+        return all(m.step * highest < THRESHOLDS.max_resonance_step for m in motions)
+
 
 def describe_motion(signals: Signals) -> Motion:
     """Returns the motion of a segment, as a windup reads it."""

@@ -150,8 +150,10 @@ def _compute_expected_gain(state: State, step: SearchStep) -> float:
 
 
 def _is_logged(data: SearchData, candidate: Candidate) -> bool:
-    """False for what reads a temperature that these logs lack."""
+    """False for what reads a temperature that these logs lack, or a resonance above their rows."""
     temperature = data.rows.signals[0].reference.temperature
+    if candidate.elastic is not None and not candidate.elastic.is_resolved(data.rows.signals):
+        return False
     return "T" not in candidate.form.names or candidate.joint in temperature
 
 

@@ -167,6 +167,8 @@ class Thresholds:
     max_stiffness_spread: float = 0.25
     """Standard deviation of the logarithm of a stiffness with which it is named: 32 clean machines
     had more."""
+    max_resonance_step: float = 0.15
+    """Periods of a resonance between samples, above which a windup along them is not exact."""
     min_windup_share: float = 0.1
     """Share of the leading reduction with which a joint is tried as elastic. No study."""
     max_fitted_windups: int = 2

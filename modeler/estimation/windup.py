@@ -164,7 +164,7 @@ class Windup(ShortRepr):
         banded = np.zeros((low + up + 1, width * n))
 
         def put(block: np.ndarray, row: int, column: int, first: int = 0, back: int = 0) -> None:
-            """Blocks (n, E, E) at a row and a column of E, from sample first on, or those before."""
+            """Blocks (n, E, E) at a row and a column of E from sample first on, or before."""
             at = width * (np.arange(first, n) - back)
             for a in range(E):
                 for b in range(E):
