@@ -283,7 +283,7 @@ class Thresholds:
     """Newmark's beta: of fourth order, stable up to a resonance of 0.39 of the sampling rate."""
     windup_newton_steps: int = 8
     """Steps of Newton's method along a motion; two or three are needed."""
-    windup_tolerance: float = 1e-6
+    windup_tolerance: float = 1e-4
     """Largest relative change of a windup at its last step."""
     windup_starts: tuple[float, ...] = (6.0, 12.0, 24.0)
     """Hz of the resonances from which stiffness and damping are sought: 32 machines of 5 to 40

@@ -147,7 +147,10 @@ class Windup(ShortRepr):
         return torque, slopes
 
     def solve_linear(self, step: float, slopes: np.ndarray, right: np.ndarray) -> np.ndarray:
-        """Solves M x'' + (D + B) x' + (K + G) x = r (n, E, R), at rest first: (n, 3, E, R).
+        """Solves M x'' + (D + B) x' + (K + G) x = r (n, E, R): (n, 3, E, R).
+
+        It starts where it rests under the first r, at the speed to rest under the next.
+
 
         By Newmark's method with beta = 1/12, gamma = 1/2: x_k = x + h v + h^2 (5/12 a + 1/12 a_k),
         v_k = v + h/2 (a + a_k). It is of fourth order but for that speed, to which the damping adds
@@ -186,7 +189,9 @@ class Windup(ShortRepr):
         sides[:, 2] = right
         flat = sides.reshape(width * n, R)
         try:
-            sides[0, 0] = np.linalg.solve(eye[0] * self.stiffness + G[0], right[0])
+            still = np.linalg.solve(eye[:2] * self.stiffness + G[:2], right[:2])
+            sides[0, :2] = still[0], (still[-1] - still[0]) / h
+            sides[0, 2] += damping[0] @ sides[0, 1]
             x = solve_banded((low, up), banded, flat, check_finite=False, overwrite_ab=True)
         except np.linalg.LinAlgError:  # an inertia that is not positive
             x = np.full(flat.shape, np.nan)
@@ -199,22 +204,27 @@ class Windup(ShortRepr):
         right = torque[:, self.joints] + known
         return self.solve_linear(motion.step, slopes, right[:, :, None])[..., 0], slopes
 
-    def integrate(self, motion: Motion) -> np.ndarray:
-        """Integrates the windup, (n, 3, E) e, e', e'' along a motion."""
-        s = np.zeros((len(motion.q), 3, len(self.joints)))
+    def integrate(
+        self, motion: Motion, near: np.ndarray | None = None
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Integrates the windup, (n, 3, E) e, e', e'' along a motion, and the slopes there.
+
+        By Newton's method from a windup near it, or from none; NaN where that is of no use.
+        """
+        s = np.zeros((len(motion.q), 3, len(self.joints))) if near is None else near
         for _ in range(THRESHOLDS.windup_newton_steps):
-            s, last = self.advance_solution(motion, s)[0], s
+            (s, slopes), last = self.advance_solution(motion, s), s
             if not np.abs(s).max() < THRESHOLDS.max_windup:
-                return np.full(s.shape, np.nan)
+                return np.full(s.shape, np.nan), slopes
             change = np.abs(s[:, 0] - last[:, 0]).max()
             if not change > THRESHOLDS.windup_tolerance * np.abs(s[:, 0]).max():
                 break
-        return s
+        return s, slopes
 
     def compute_torque_change(self, motion: Motion) -> np.ndarray:
         """Computes (n, J) the torque beyond that of rigid joints with the same beta."""
         with np.errstate(all="ignore"):
-            s = self.integrate(motion)
+            s, _ = self.integrate(motion)
         if not np.isfinite(s).all():
             return np.full(motion.q.shape, np.nan)
         columns = self.compute_columns(motion, s)
@@ -320,16 +330,16 @@ class WindupProblem(ShortRepr):
         """Returns the joint of each row, (rows,)."""
         return np.repeat(np.arange(len(self.y)), [len(y) for y in self.y])
 
-    def evaluate(self, windup: Windup, states: Sequence[np.ndarray], extra: np.ndarray) -> _Turn:
-        """Evaluates residuals and slopes near states (n, 3, E) of the segments."""
+    def evaluate(
+        self, windup: Windup, states: Sequence[np.ndarray | None], extra: np.ndarray
+    ) -> _Turn:
+        """Evaluates residuals and slopes, from states (n, 3, E) of the segments near these."""
         c, E, after, every = len(windup.beta), len(windup.joints), [], []
         links = np.append(windup.is_link_column, np.zeros(E, dtype=bool))
         lost = _Turn(windup, [], extra, np.zeros((0, 0)), np.zeros(0), np.inf)
-        for motion, s in zip(self.motions, states, strict=True):
-            if not np.abs(s).max() < THRESHOLDS.max_windup:
-                return lost
-            s, slopes = windup.advance_solution(motion, s)
-            if not np.abs(s).max() < THRESHOLDS.max_windup:
+        for motion, near in zip(self.motions, states, strict=True):
+            s, slopes = windup.integrate(motion, near)
+            if not np.isfinite(s).all():
                 return lost
             columns = windup.compute_columns(motion, s)
             forces = windup.stiffness * s[:, 0], windup.damping * s[:, 1]
@@ -418,8 +428,8 @@ class WindupProblem(ShortRepr):
     def start_turn(self, windup: Windup) -> _Turn:
         """Evaluates values that no turn was near."""
         with np.errstate(all="ignore"):
-            states = [windup.integrate(motion) for motion in self.motions]
-            return self.evaluate(windup, states, np.zeros(self.extra[0].shape[1]))
+            none = np.zeros(self.extra[0].shape[1])
+            return self.evaluate(windup, [None] * len(self.motions), none)
 
     def solve_rigid(self, windup: Windup) -> np.ndarray:
         """Solves for beta (c,) of rigid joints, whose rotors are a part of the links."""
