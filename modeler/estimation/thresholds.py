@@ -305,6 +305,9 @@ class Thresholds:
     """s between samples from which columns are made, at least."""
     windup_block: float = 0.5
     """s of a block of time, beyond which residuals are independent."""
+    start_damping_factor: float = 6.0
+    """Damping of a second start over that of the file: two elastic joints were found from 0.4 to
+    1.4 of their stiffness, without it from 0.6 to 1."""
     first_windup_turns: int = 3
     """Steps of Gauss-Newton of each start. No study."""
     max_windup_turns: int = 8

@@ -450,18 +450,20 @@ class WindupProblem(ShortRepr):
             start: with its K and D.
             free_joints: those whose K and D begin at several resonances; the best goes on.
         """
-        starts = [start]
+        loose = replace(start, damping=THRESHOLDS.start_damping_factor * start.damping)
+        starts = [start, loose]  # whose cost has fewer minima
         if free_joints:
             of = THRESHOLDS.windup_starts
             starts = [start.set_resonances(self.motions, f, free_joints) for f in of]
-        first, turns = THRESHOLDS.first_windup_turns, []
+        every = THRESHOLDS.max_windup_turns
+        first, turns = THRESHOLDS.first_windup_turns if free_joints else every, []
         for windup in starts:
             turn = self.start_turn(windup)
             if np.isfinite(turn.cost):
                 turns.append(self.iterate(turn, first))
         if not turns:
             return None
-        best = self.iterate(min(turns, key=lambda turn: turn.cost), THRESHOLDS.max_windup_turns)
+        best = self.iterate(min(turns, key=lambda turn: turn.cost), every)
         return replace(best.windup, spread=self._compute_spread(best))
 
     def _compute_spread(self, turn: _Turn) -> np.ndarray:
