@@ -38,6 +38,16 @@ from .long_logs import (
     reduce_by_threads as reduce_by_threads,
     stream_logs as stream_logs,
 )
+from .machine_change import (
+    MachineComparison as MachineComparison,
+    OwnFit as OwnFit,
+    ParameterChange as ParameterChange,
+    build_load_columns as build_load_columns,
+    compare_machines as compare_machines,
+    fit_machine as fit_machine,
+    sum_machine_rows as sum_machine_rows,
+    sum_observation as sum_observation,
+)
 from .model_file import (
     Addition as Addition,
     IdentifiedModel as IdentifiedModel,

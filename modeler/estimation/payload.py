@@ -24,7 +24,7 @@ from modeler.numerics.least_squares import (
 from modeler.regression import Observation, Segment, compute_signals
 from modeler.runtime import CompiledModel
 
-_ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
+ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
 """Where two load parameters cannot be distinguished, the first in this order stays."""
 
 AnyModel = TypeVar("AnyModel", bound=IdentifiedModel)
@@ -129,7 +129,7 @@ def _add_load(
     """Returns the equations with the columns of a load that are independent of those there are."""
     link = payload.link or find_carrier(model.spec)
     place = {p.name: i for i, p in enumerate(model.spec.standard) if p.effect == "rigid_body"}
-    labels = [label for label in _ORDER if f"{label}{link}" in place]
+    labels = [label for label in ORDER if f"{label}{link}" in place]
     places = [place[f"{label}{link}"] for label in labels]
 
     def evaluate(s: Segment, w: slice) -> np.ndarray:

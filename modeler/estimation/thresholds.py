@@ -82,6 +82,41 @@ class Thresholds:
     """Share of a joint's torque below which logs are not compared: machines differ by more."""
     different_log_sigmas: float = 4.0
     """Standard deviations between two logs with one load."""
+    max_compared_samples: int = 20000
+    """Samples of a set of logs that are compared with another set; no study."""
+    change_blocks: int = 5
+    """Blocks of time whose fits show how much a machine that stays differs from itself."""
+    change_reweightings: int = 8
+    """Fits in which joint weights converge."""
+    change_tolerance: float = 1e-10
+    """Eigenvalue of normal equations with unit diagonal below which nothing is determined."""
+    min_block_eigenvalue: float = 1e-6
+    """Eigenvalue, over the largest, of a block below which its rows show nothing; no study."""
+    load_tolerance: float = 1e-8
+    """Share of a column's length that is rounding."""
+    max_chance_misfit: float = 2.0
+    """Misfit per parameter up to which two sets are of one machine; tests/changed_machines: at most
+    1.9 of 40 machines that stayed, 0.3 to 1.6 where the change is named."""
+    misfit_per_number: float = 6.0
+    """Misfit that a number more must explain: half of log(rows), of 1e5 rows."""
+    min_change_misfit: float = 40.0
+    """Misfit that a change must explain: over ten standard deviations of two numbers with the
+    excess of five blocks; tests/changed_machines."""
+    min_explained_misfit: float = 0.02
+    """Share of the difference that a further change must explain; no study."""
+    max_changes: int = 3
+    """Places that are named."""
+    min_change_t: float = 5.0
+    """Standard deviations of a changed quantity; tests/changed_machines."""
+    min_friction_change: float = 0.1
+    """Relative change of a friction parameter: warmth alone changes it by less; no study."""
+    min_changed_share: float = 0.02
+    """Share of a joint's rms torque that a changed offset, gain or load makes; no study."""
+    min_changed_friction_share: float = 0.005
+    """The same of one friction parameter; no study."""
+    min_unexplained_ratio: float = 1.5
+    """Residual of a joint across two sets, over that of fits of their own, from which a difference
+    that nothing explains is reported; tests/changed_machines."""
     min_moment_share: float = 0.1
     """Share of the largest first moment that a moved load changes."""
     max_variance_iterations: int = 30

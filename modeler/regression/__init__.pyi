@@ -4,6 +4,7 @@ from .block_fits import (
     number_blocks as number_blocks,
     predict_left_out as predict_left_out,
     sum_blocks as sum_blocks,
+    sum_joint_rows as sum_joint_rows,
 )
 from .chunk import (
     SPREAD as SPREAD,

@@ -82,14 +82,35 @@ def sum_blocks(rows: Observation, block: np.ndarray, prior: np.ndarray) -> Block
         block: (s,) of each sample.
         prior: (c,) of `compute_prior_weights`.
     """
-    W, y, blocks = rows.columns, rows.torque, range(THRESHOLDS.time_blocks)
     used = rows.used & np.isin(range(len(rows.joints)), rows.driven)
-    parts = [[np.flatnonzero(use & (block == b)) for b in blocks] for use in used.T]
-    pairs = list(enumerate(parts))
-    gram = [[W[some, j].T @ W[some, j] for some in of] for j, of in pairs]
-    cross = [[W[some, j].T @ y[some, j] for some in of] for j, of in pairs]
-    squares = [[float(y[some, j] @ y[some, j]) for some in of] for j, of in pairs]
-    count = [[len(some) for some in of] for of in parts]
+    W = [rows.columns[part, j] for j, part in enumerate(used.T)]
+    y = [rows.torque[part, j] for j, part in enumerate(used.T)]
+    blocks = [block[part] for part in used.T]
+    return sum_joint_rows(W, y, blocks, THRESHOLDS.time_blocks, prior)
+
+
+def sum_joint_rows(
+    W: Sequence[np.ndarray],
+    y: Sequence[np.ndarray],
+    block: Sequence[np.ndarray],
+    blocks: int,
+    prior: np.ndarray,
+) -> BlockSums:
+    """Returns the normal equations of rows W_j (rows_j, c), y_j and their blocks of each joint.
+
+    Args:
+        W: rows of each joint.
+        y: their torques.
+        block: from 0 on, of each row.
+        blocks: how many there are.
+        prior: (c,) of `compute_prior_weights`.
+    """
+    every = [[part == b for b in range(blocks)] for part in block]
+    rows = list(zip(W, y, every, strict=True))
+    gram = [[w[some].T @ w[some] for some in of] for w, _, of in rows]
+    cross = [[w[some].T @ t[some] for some in of] for w, t, of in rows]
+    squares = [[float(t[some] @ t[some]) for some in of] for _, t, of in rows]
+    count = [[int(some.sum()) for some in of] for of in every]
     return BlockSums(np.array(gram), np.array(cross), np.array(squares), np.array(count), prior)
 
 
