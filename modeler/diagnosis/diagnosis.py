@@ -14,7 +14,7 @@ from modeler.diagnosis.events import detect_pushes, leave_out
 from modeler.diagnosis.generation import estimate_logger_shift, generate_candidates
 from modeler.diagnosis.messages import exclude_friction, find_faults
 from modeler.diagnosis.plausibility import find_gravity_confounders
-from modeler.diagnosis.result import Diagnosis, ParameterChange
+from modeler.diagnosis.result import Diagnosis
 from modeler.diagnosis.scoring import make_veto
 from modeler.diagnosis.search import Search, SearchStep, search_effects
 from modeler.diagnosis.state import (
@@ -29,7 +29,7 @@ from modeler.diagnosis.state import (
 )
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import Effect, EffectTarget, Requirement, find_effect
-from modeler.estimation import IdentifiedModel, compute_relative_errors
+from modeler.estimation import IdentifiedModel, MachineComparison, compute_relative_errors
 from modeler.regression import (
     DataWarning,
     Log,
@@ -131,16 +131,19 @@ def diagnose(
         veto = make_veto(other)
         return search_effects(data, model.beta, without, most, veto, stages.advance, named_steps)
 
+    machine: MachineComparison | None = None
+
     def search_bands() -> list[findings.BandSearch]:
         """Searches the band of the diagnosis, then a wider one with all that is named."""
         made: list[findings.BandSearch] = []
         far = beyond if beyond is not None and get_cutoff(beyond) > get_cutoff(data) else None
-        far_held_out = None if far is None else _prepare_holdout(far, holdout)
+        far_held_out = None if far is None else _prepare_holdout(far, holdout, machine)
         far_held_out = far_held_out and leave_out(far_held_out, held_push, named)
         for band_data, held in ((data, other), (far, far_held_out)):
             if band_data is None:
                 continue
-            search = run_search(band_data, held, made[0].named_steps if made else ())
+            unseen = None if machine is not None and machine.unexplained else held
+            search = run_search(band_data, unseen, made[0].named_steps if made else ())
             second = data if made else beyond
             check_data = list[findings.CrossCheckData]()
             if held is not None:
@@ -150,7 +153,7 @@ def diagnose(
                     findings.CrossCheckData(f"up to {get_cutoff(second):.2g} Hz", second)
                 )
             checks = findings.cross_check_effects(search, check_data, stages.advance)
-            made.append(findings.evaluate_search(search, held, checks, stages.advance))
+            made.append(findings.evaluate_search(search, unseen, checks, stages.advance))
         return made
 
     held_push, named = None, list[Candidate]()
@@ -175,12 +178,13 @@ def diagnose(
         beyond = beyond and leave_out(beyond, window, named)
         other = other and leave_out(other, held_push, named)
         bands = search_bands()
-    stages.begin_stage(_NAMED if equations else 1.0)
-    changes = tuple[ParameterChange, ...]()
     if other is not None and limit:
-        first, left = bands[0].search, bands[0].held_out_residuals[-1]
-        changes = findings.find_changed_parameters(model, first, other, left, holdout)
-    diagnosis = findings.assemble_diagnosis(model, bands, window, faults, changes)
+        machine = findings.compare_holdout(bands[0].search, other)
+    if machine is not None and machine.sentences:
+        other = other if other is None else findings.remove_changes(other, machine)
+        bands = search_bands()
+    stages.begin_stage(_NAMED if equations else 1.0)
+    diagnosis = findings.assemble_diagnosis(model, bands, window, faults, machine)
     if equations and limit:
         from modeler.diagnosis.proposals import discover_equations  # few runs search equations
 
@@ -266,13 +270,16 @@ def _resolve_ids(without: Sequence[str], catalogue: Sequence[Effect]) -> tuple[s
     return tuple(ids)
 
 
-def _prepare_holdout(data: SearchData, holdout: Sequence[Log]) -> SearchData | None:
-    """Held-out logs in the band of the training logs."""
+def _prepare_holdout(
+    data: SearchData, holdout: Sequence[Log], machine: MachineComparison | None = None
+) -> SearchData | None:
+    """Held-out logs in the band of the training logs, of the machine as it was in these."""
     if not holdout:
         return None
     processing = data.observation.report.processing
     observation = observe_in_band(data.compiled, holdout, processing)
-    return replace(data, observation=thin_samples(observation, data.compiled))
+    held = replace(data, observation=thin_samples(observation, data.compiled))
+    return held if machine is None else findings.remove_changes(held, machine)
 
 
 def find_fixed_parameters(

@@ -51,8 +51,14 @@ from modeler.diagnosis.search import (
 from modeler.diagnosis.state import SearchData, State, build_columns, build_state, get_cutoff
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import EffectTarget, find_effect
-from modeler.estimation import IdentifiedModel, identify
-from modeler.regression import DataWarning, Log, build_observation, prepare_logs
+from modeler.estimation import (
+    IdentifiedModel,
+    MachineComparison,
+    compare_machines,
+    fit_machine,
+    sum_machine_rows,
+)
+from modeler.regression import DataWarning, compute_prior_weights
 from modeler.runtime import map_parts
 
 
@@ -171,38 +177,29 @@ def _rescan_candidates(state: State, step: SearchStep, search: Search) -> list[S
 # Is the machine of the held-out logs that of the training logs?
 
 
-def find_changed_parameters(
-    model: IdentifiedModel, search: Search, other: SearchData, left: Residuals, logs: Sequence[Log]
-) -> tuple[result.ParameterChange, ...]:
-    """Finds parameters in which the machine of the held-out logs differs, largest change first.
+def compare_holdout(search: Search, other: SearchData) -> MachineComparison | None:
+    """Compares the machine of the held-out logs, beside all effects; None with a fixed robot.
 
     Args:
-        model: as given.
         search: the search on the training logs.
         other: the held-out logs.
-        left: what the model with all effects leaves of these.
-        logs: the same logs.
     """
-    there, ratio = fit_on_logs(search.end, other), THRESHOLDS.min_machine_error_ratio
-    left_out = (compute_holdout_residuals(state, None) for state in (there, search.end))
-    alone, training = map(compute_errors, left_out)
-    most = {joint: ratio * max(alone[joint], training.get(joint, 0.0)) for joint in alone}
-    misses = any(error > most.get(joint, math.inf) for joint, error in compute_errors(left).items())
-    if not misses or other.fixed_parameters is not None:
-        return ()
-    rows = build_observation(other.compiled, logs, prepare_logs(other.spec, logs, model.processing))
-    fitted = identify(rows, "weighted", other.compiled).parameters
-    changes, norm = list[result.ParameterChange](), np.linalg.norm
-    for i, (a, b) in enumerate(zip(model.fit.parameters, fitted, strict=True)):
-        change, pairs = abs(b.value - a.value), zip(there.rows.W, there.rows.y, strict=True)
-        shares = (change * float(norm(w[:, i])) / (float(norm(y)) or math.inf) for w, y in pairs)
-        share = max(shares)
-        if a.sigma is None or b.sigma is None or share < THRESHOLDS.min_changed_torque_share:
-            continue
-        if change > THRESHOLDS.min_changed_parameter_t * math.hypot(a.sigma, b.sigma):
-            values = a.name, a.value, b.value, a.sigma, b.sigma, a.unit, share
-            changes.append(result.ParameterChange(*values))
-    return tuple(sorted(changes, key=lambda item: -item.share))
+    if other.fixed_parameters is not None:
+        return None
+    states = search.end, fit_on_logs(search.end, other)
+    rows = [(state.W, state.y, state.data.observation) for state in states]
+    sums = [sum_machine_rows(W, y, o.used, compute_prior_weights(o)) for W, y, o in rows]
+    return compare_machines(search.spec, fit_machine(sums[0]), sums[1])
+
+
+def remove_changes(data: SearchData, comparison: MachineComparison) -> SearchData:
+    """Removes from the torques of held-out logs what changed since the training logs."""
+    observation, width = data.observation, len(data.spec.base)
+    torque = observation.torque.copy()
+    for j, used in enumerate(observation.used.T):
+        columns = comparison.torque_columns[j]
+        torque[used, j] -= data.rows.W[j] @ columns[:width] + columns[-1]
+    return replace(data, observation=replace(observation, torque=torque))
 
 
 @dataclass(frozen=True, eq=False)
@@ -281,7 +278,7 @@ def assemble_diagnosis(
     bands: Sequence[BandSearch],
     window: result.PushWindow | None,
     faults: Sequence[DataWarning] = (),
-    changed_parameters: Sequence[result.ParameterChange] = (),
+    machine: MachineComparison | None = None,
 ) -> result.Diagnosis:
     """Assembles the diagnosis.
 
@@ -290,8 +287,7 @@ def assemble_diagnosis(
         bands: the search in the band of the diagnosis; then, if there is one, that in a wider band.
         window: of a contact that was masked.
         faults: channels that contradict the model; if one is certain, nothing is named.
-        changed_parameters: parameters in which the machine of the held-out logs differs; then
-            nothing is judged.
+        machine: that of the held-out logs, compared; None where there are none.
     """
     first, last = bands[0], bands[-1]
     search, other = first.search, first.other
@@ -309,15 +305,12 @@ def assemble_diagnosis(
         every = detect_events(last.search, window, compute_errors(left), score_candidate, every)
     joints = _summarise_joints(search, end, (first.held_out_residuals[0], residuals), first.share)
     every = [_add_event_caveat(finding, joints) for finding in every]
-    if changed_parameters:
-        every = [replace(finding, warning=messages.NOT_JUDGED) for finding in every]
     every.sort(key=lambda finding: finding.status == "possible")
     effects, refinements = (tuple(f for f in every if f.is_refinement is r) for r in (False, True))
-    void = contradicted or changed_parameters
     rivals = tuple((*rival.key, rival.variance_reduction) for rival in search.ranked[:8])
     diagnosis = result.Diagnosis(
         robot=model.spec.robot,
-        verdict="cannot tell" if void else decide_verdict(effects, joints, search),
+        verdict="cannot tell" if contradicted else decide_verdict(effects, joints, search),
         effects=effects,
         refinements=refinements,
         alternatives=rivals,
@@ -329,7 +322,7 @@ def assemble_diagnosis(
         fit_band=model.processing.parallel_cutoff or 0.0,
         data_warnings=messages.collect_warnings(model, search, other, faults, window),
         has_contradictions=contradicted,
-        machine_changed=tuple(changed_parameters),
+        machine=machine,
         window=window,
         search=search,
     )

@@ -285,10 +285,6 @@ def find_faults(
     return tuple(replace(fault, line=f"{which}{fault.line}") for fault in faults)
 
 
-NOT_JUDGED = "the machine differs between the training and the held-out logs"
-"""Why no effect is judged where parameters have changed."""
-
-
 _ONLY_HERE = "of these logs' error, but that of motion left out does not fall significantly with it"
 _PART = "it explains only a part of the systematic residual"
 
@@ -341,11 +337,10 @@ def describe_evidence(step: SearchStep, before: float, after: float) -> str:
 
 def add_sentences(diagnosis: Diagnosis) -> Diagnosis:
     """Adds the sentences to the diagnosis."""
-    lines = [_write_headline(diagnosis)]
+    lines = [*_describe_machine(diagnosis), _write_headline(diagnosis)]
     lines += [_describe_effect(finding, diagnosis) for finding in diagnosis.effects]
     lines += [_describe_refinement(f, diagnosis) for f in diagnosis.refinements]
-    void = diagnosis.has_contradictions or diagnosis.machine_changed
-    reported_joints = {} if void else diagnosis.joints
+    reported_joints = {} if diagnosis.has_contradictions else diagnosis.joints
     lines += describe_rejected(diagnosis) if reported_joints else []
     for name, joint in reported_joints.items():
         if joint.is_unexplained and name not in diagnosis.unjudged_joints:
@@ -361,8 +356,8 @@ def add_sentences(diagnosis: Diagnosis) -> Diagnosis:
             f"{format_joints(diagnosis.unjudged_joints)} left out: their held-out motion is not "
             "predicted; record the motion of `modeler excite`"
         )
-    lines += _list_changes(diagnosis) + [f"data: {line}" for line in diagnosis.data_warnings]
-    if not diagnosis.held_out_logs:
+    lines += [f"data: {line}" for line in diagnosis.data_warnings]
+    if not diagnosis.held_out_logs and not diagnosis.unexplained_change:
         lines.append(
             "no held-out logs: errors are cross-validated within the logs, which flatters effects "
             "that depend on the path; give other motion with --holdout"
@@ -370,15 +365,16 @@ def add_sentences(diagnosis: Diagnosis) -> Diagnosis:
     return replace(diagnosis, sentences=tuple(lines))
 
 
-def _list_changes(diagnosis: Diagnosis) -> list[str]:
-    """The parameters in which the machine of the held-out logs differs."""
-    lines = [
-        f"{p.name}: {p.before:.4g} +- {p.sigma_before:.2g} -> {p.after:.4g} +- "
-        f"{p.sigma_after:.2g} {p.unit} (fitted to the held-out logs alone)"
-        for p in diagnosis.machine_changed[: THRESHOLDS.max_listed_changes]
-    ]
-    more = len(diagnosis.machine_changed) - len(lines)
-    return lines + [f"{more} other parameters differ too"] * (more > 0)
+def _describe_machine(diagnosis: Diagnosis) -> list[str]:
+    """What changed between the training and the held-out logs, and what is made of it."""
+    machine = diagnosis.machine
+    if machine is None or not machine.sentences:
+        return []
+    lines = [f"changed between the training and the held-out logs: {x}" for x in machine.sentences]
+    if machine.unexplained:
+        why = "errors are cross-validated within the training logs; held-out logs only confirm"
+        return [*lines, f"{why}: take logs of the machine in one state"]
+    return [*lines, "held-out errors are those of the torques without this change"]
 
 
 def describe_rejected(diagnosis: Diagnosis) -> list[str]:
@@ -416,11 +412,6 @@ def _describe_bursts(diagnosis: Diagnosis, name: str) -> str:
 
 def _write_headline(diagnosis: Diagnosis) -> str:
     first = diagnosis.effects[0] if diagnosis.effects else None
-    if diagnosis.machine_changed:
-        return (
-            f"cannot tell: {NOT_JUDGED}, so the diagnosis is not judged; take logs of the machine "
-            "in one state"
-        )
     if diagnosis.verdict == "missing" and first is not None:
         return f"missing: {_format_effect(first, diagnosis)}{describe_equivalents(first)}"
     if diagnosis.verdict == "closest description" and first is not None:

@@ -21,6 +21,7 @@ from modeler.diagnosis.search import Search
 from modeler.diagnosis.state import State
 from modeler.diagnosis.thresholds import THRESHOLDS
 from modeler.effects import MOTION, Effect, EffectTarget
+from modeler.estimation import MachineComparison, ParameterChange
 
 # Does an effect explain what is systematic, or only part of it?
 
@@ -72,27 +73,6 @@ class CrossCheck(Document):
     def leading_place(self) -> EffectPlace | None:
         """Returns the effect that leads there on its joint; None if nothing surely does."""
         return None if self.leading_effect is None else EffectPlace(*self.leading_effect)
-
-
-@dataclass(frozen=True)
-class ParameterChange:
-    """A base parameter that differs between the training and the held-out logs.
-
-    Attributes:
-        name: of the parameter.
-        before, after: fitted to the training logs, and to the held-out logs alone.
-        sigma_before, sigma_after: standard deviations.
-        unit: of all four.
-        share: rms torque of the change over that of the joint where it is largest.
-    """
-
-    name: str
-    before: float
-    after: float
-    sigma_before: float
-    sigma_after: float
-    unit: str
-    share: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -525,8 +505,9 @@ class Diagnosis(Result, Document):
         data_warnings: warnings about the logs themselves.
         has_contradictions: True if channels of the logs contradict the model: then nothing is
             named.
-        machine_changed: parameters in which the machine of the held-out logs differs: then
-            nothing is judged.
+        machine: that of the held-out logs, compared with that of the training logs; None where
+            they are not. What changed is removed from the held-out torques; where that does not
+            explain the difference, errors are cross-validated within the training logs.
         window: when something pushed, if anything did.
         search: everything behind it.
         discoveries: equations proposed by joint; None where none were requested.
@@ -537,7 +518,7 @@ class Diagnosis(Result, Document):
         robot verdict effects refinements alternatives=alternative_effects
         undetectable=undetectable_places joints=joint_results unmoved_joints unjudged_joints
         held_out_logs sentences band fit_band data_warnings has_changed has_contradictions
-        machine_changed discoveries
+        machine_changed unexplained_change discoveries
     """
 
     robot: str
@@ -553,7 +534,7 @@ class Diagnosis(Result, Document):
     fit_band: float
     data_warnings: tuple[str, ...]
     has_contradictions: bool
-    machine_changed: tuple[ParameterChange, ...]
+    machine: MachineComparison | None
     window: PushWindow | None
     search: Search
     discoveries: tuple[JointDiscovery, ...] | None = None
@@ -600,7 +581,17 @@ class Diagnosis(Result, Document):
             new = (finding.effect, finding.joint) not in has or effect.is_repeatable
             return new and not explain_exclusion(effect, spec)
 
-        return () if self.machine_changed else tuple(filter(can_add, self.effects))
+        return () if self.unexplained_change else tuple(filter(can_add, self.effects))
+
+    @property
+    def machine_changed(self) -> tuple[ParameterChange, ...]:
+        """Returns what changed between the training and the held-out logs, largest first."""
+        return () if self.machine is None else self.machine.changes
+
+    @property
+    def unexplained_change(self) -> tuple[str, ...]:
+        """Returns joints that differ between the training and the held-out logs unexplained."""
+        return () if self.machine is None else self.machine.unexplained
 
     @property
     def has_changed(self) -> bool:

@@ -19,13 +19,6 @@ class Thresholds:
     definition."""
     max_rechecked_alternatives: int = 8
     """Count of alternatives that are scored again on other data. Bounds the time; no study."""
-    min_machine_error_ratio: float = 2.0
-    """Ratio of the held-out error to that of a fit to the held-out logs; above it the machine may
-    differ. No study."""
-    min_changed_parameter_t: float = 5.0
-    """Standard deviations of the difference of a parameter between machines. No study."""
-    min_changed_torque_share: float = 0.005
-    """Share of a joint's rms torque that the change of a parameter must cause. No study."""
     min_duration: float = 5.0
     """s of motion; with less nothing is ruled out. No study."""
     min_stroke: Mapping[str, float] = field(default_factory=lambda: {"rad": 1e-3, "m": 1e-4})
@@ -327,8 +320,6 @@ class Thresholds:
     """Variance reduction with which a rejected effect is mentioned. No study."""
     max_listed_rejections: int = 3
     """Rejected effects that are listed."""
-    max_listed_changes: int = 8
-    """Changed parameters that are listed."""
     position_step: float = 1e-5
     """rad or m, of central differences."""
     difference_reach: int = 2

@@ -96,9 +96,9 @@ class MachineComparison(ShortRepr):
     """What differs between two sets of logs.
 
     Attributes:
-        changes: named, largest first.
-        unexplained: names of the joints where the sets differ and no change of the kinds that are
-            known explains it.
+        changes: that explain the difference, largest first.
+        unexplained: joints where the sets differ and no change of the known kinds explains it; then
+            none is named.
         torque_columns: (J, c + 1) what the columns of each joint, and a constant, carry of the
             named changes in the logs after.
     """
@@ -116,10 +116,10 @@ class MachineComparison(ShortRepr):
             some = [each.describe() for each in self.changes if each.joint == place]
             lines.append(f"{'' if place is None else f'joint {place}: '}{', '.join(some)}")
         if self.unexplained:
-            s = "s" * (len(self.unexplained) > 1)
+            joints = f"joint{'s' * (len(self.unexplained) > 1)} {', '.join(self.unexplained)}"
             lines.append(
-                f"joint{s} {', '.join(self.unexplained)}: differ{'' if s else 's'}, and no change "
-                "of friction, offset, drive gain or load explains it"
+                f"{joints}: a difference that no change of friction, offset, drive gain or load "
+                "explains"
             )
         return tuple(lines)
 
@@ -364,10 +364,12 @@ def compare_machines(spec: ModuleSpec, before: OwnFit, after: BlockSums) -> Mach
     """
     seen = _Evidence(spec, before, after)
     fit = _select_changes(seen, _propose_changes(spec, before.beta))
+    if unexplained := _find_unexplained(seen, fit):
+        return MachineComparison((), unexplained, np.zeros_like(fit.torque_columns))
     changes = [change for change in _list_changes(seen, fit) if change.is_clear]
-    columns = fit.torque_columns if changes else np.zeros_like(fit.torque_columns)
     changes.sort(key=lambda change: -change.share)
-    return MachineComparison(tuple(changes), _find_unexplained(seen, fit), columns)
+    columns = fit.torque_columns if changes else np.zeros_like(fit.torque_columns)
+    return MachineComparison(tuple(changes), (), columns)
 
 
 def _select_changes(seen: "_Evidence", proposed: Sequence[_Hypothesis]) -> _Fit:

@@ -535,9 +535,10 @@ def suggest_after_diagnosis(
     """Suggests to add the effects that have columns; else to record, to compare or to generate."""
     named = diagnosis.addable_findings
     needs_motion |= bool(diagnosis.unjudged_joints)
-    if not named and needs_motion and not diagnosis.machine_changed:
+    is_same = not (diagnosis.machine_changed or diagnosis.unexplained_change)
+    if not named and needs_motion and is_same:
         return [_suggest_motion(model, logs)]
-    if not named and diagnosis.verdict == "nothing significant":
+    if not named and diagnosis.verdict == "nothing significant" and is_same:
         return [_suggest_generate(model)]
     if not named:
         return [
