@@ -143,9 +143,13 @@ class ComparisonRun(Document):
         findings: faults of the logs.
         is_held_out: False if the model was fitted on some of the logs.
         beside: the same model without its load; None without one.
+        machine: that of the logs, compared with that of the fit; None where it was fitted on them.
     """
 
-    KEYS = "*comparison warnings"
+    KEYS = """
+        *comparison warnings machine_changed=machine.changes
+        unexplained_change=machine.unexplained
+    """
 
     model: IdentifiedModel
     comparison: validation.Comparison
@@ -153,6 +157,7 @@ class ComparisonRun(Document):
     findings: Sequence[DataWarning]
     is_held_out: bool
     beside: validation.ModelComparison | None
+    machine: estimation.MachineComparison | None
 
     @property
     def is_noise_like(self) -> bool:
@@ -172,6 +177,7 @@ class ComparisonRun(Document):
             *([] if self.model.logs else self.model.fit.sentences),
             "",
             *validation.write_verdict(self.comparison),
+            *(self.machine.describe("the logs of the fit and these") if self.machine else ()),
             *self.model.warning,
             *notes,
             *(fault.line for fault in self.findings),
@@ -209,7 +215,11 @@ def compare_with_provenance(
         beside = compare_compiled_models(both, [compiled] * 2, logs, mapping, logs)[0]
     lines += [*model.warning, *training, *report.format_lines(), *report.collect_notes()]
     lines += [fault.line for fault in findings if fault.is_certain]
-    return ComparisonRun(model, comparison, lines, findings, not training, beside)
+    machine = None
+    if model.logs and not training and not any(fault.is_certain for fault in findings):
+        fit, rows = estimation.convert_model_fit(model), estimation.sum_observation(observation)
+        machine = estimation.compare_machines(model.spec, fit, rows)
+    return ComparisonRun(model, comparison, lines, findings, not training, beside, machine)
 
 
 def _describe_model(model: IdentifiedModel) -> list[str]:

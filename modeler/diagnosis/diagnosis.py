@@ -180,7 +180,7 @@ def diagnose(
         bands = search_bands()
     if other is not None and limit:
         machine = findings.compare_holdout(bands[0].search, other)
-    if machine is not None and machine.sentences:
+    if machine is not None and machine.differs:
         other = other if other is None else findings.remove_changes(other, machine)
         bands = search_bands()
     stages.begin_stage(_NAMED if equations else 1.0)

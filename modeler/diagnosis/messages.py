@@ -368,11 +368,11 @@ def add_sentences(diagnosis: Diagnosis) -> Diagnosis:
 def _describe_machine(diagnosis: Diagnosis) -> list[str]:
     """What changed between the training and the held-out logs, and what is made of it."""
     machine = diagnosis.machine
-    if machine is None or not machine.sentences:
+    if machine is None or not machine.differs:
         return []
-    lines = [f"changed between the training and the held-out logs: {x}" for x in machine.sentences]
+    lines = machine.describe("the training and the held-out logs")
     if machine.unexplained:
-        why = "errors are cross-validated within the training logs; held-out logs only confirm"
+        why = "errors are cross-validated within the training logs"
         return [*lines, f"{why}: take logs of the machine in one state"]
     return [*lines, "held-out errors are those of the torques without this change"]
 

@@ -44,6 +44,7 @@ from .machine_change import (
     ParameterChange as ParameterChange,
     build_load_columns as build_load_columns,
     compare_machines as compare_machines,
+    convert_model_fit as convert_model_fit,
     fit_machine as fit_machine,
     sum_machine_rows as sum_machine_rows,
     sum_observation as sum_observation,

@@ -22,6 +22,7 @@ import numpy as np
 from modeler.core.json import Document, ShortRepr
 from modeler.core.manifest import ModuleSpec
 from modeler.core.table import format_percent
+from modeler.estimation.model_file import IdentifiedModel
 from modeler.estimation.payload import ORDER, find_carrier
 from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import compute_column_norms
@@ -108,20 +109,28 @@ class MachineComparison(ShortRepr):
     torque_columns: np.ndarray
 
     @property
-    def sentences(self) -> tuple[str, ...]:
-        """Returns a sentence for each place that changed, and one where nothing explains it."""
-        places = dict.fromkeys(change.joint for change in self.changes)
+    def differs(self) -> bool:
+        """Returns whether the two sets are of different machines."""
+        return bool(self.changes or self.unexplained)
+
+    def describe(self, sets: str) -> list[str]:
+        """Returns a sentence for each place that changed, or one where nothing explains it.
+
+        Args:
+            sets: which logs are compared: "A and B".
+        """
         lines = []
-        for place in places:
+        for place in dict.fromkeys(change.joint for change in self.changes):
             some = [each.describe() for each in self.changes if each.joint == place]
-            lines.append(f"{'' if place is None else f'joint {place}: '}{', '.join(some)}")
+            where = "" if place is None else f"joint {place}: "
+            lines.append(f"changed between {sets}: {where}{', '.join(some)}")
         if self.unexplained:
             joints = f"joint{'s' * (len(self.unexplained) > 1)} {', '.join(self.unexplained)}"
             lines.append(
-                f"{joints}: a difference that no change of friction, offset, drive gain or load "
-                "explains"
+                f"{joints}: {sets} differ, and no change of friction, offset, drive gain or load "
+                "explains it"
             )
-        return tuple(lines)
+        return lines
 
 
 # The two sets: a fit of their own, and rows by joint and block of time.
@@ -166,6 +175,16 @@ def fit_machine(sums: BlockSums) -> OwnFit:
     """Returns the fit of a set of logs, without the constants."""
     fit = _FreeFit(sums, [np.eye(sums.gram.shape[-1])[:, :-1]] * len(sums.gram))
     return OwnFit(fit.solution, fit.normal, fit.sigma)
+
+
+def convert_model_fit(model: IdentifiedModel) -> OwnFit:
+    """Returns the fit of a model as that of one set of logs, with the covariance that it states."""
+    covariance = model.covariance
+    known = np.diag(covariance) > 0.0
+    information = np.where(np.outer(known, known), _invert(covariance), 0.0)
+    sigmas = {joint.name: joint.sigma for joint in model.fit.joints}
+    sigma = np.array([sigmas.get(joint.name, 0.0) for joint in model.spec.joints])
+    return OwnFit(model.beta, information, sigma)
 
 
 class _FreeFit:
@@ -329,9 +348,19 @@ class _Evidence:
         self.chance_misfit = THRESHOLDS.max_chance_misfit * len(before.beta)
 
     def measure(self, columns: np.ndarray) -> float:
-        """Returns the largest rms torque of columns (J, c + 1), over that of the joint."""
+        """Returns the largest `limit_shares` of columns (J, c + 1)."""
         square = np.einsum("jc,jcd,jd->j", columns, self.gram, columns)
-        return float(np.sqrt(np.max(square / np.maximum(self.torque_squares, 1e-300))))
+        return float(np.max(self.limit_shares(square)))
+
+    def limit_shares(self, squares: np.ndarray) -> np.ndarray:
+        """Returns (J,) the rms torque over that of the joint; 0 where noise may look so.
+
+        Noise of the motion makes fitted values smaller by about the square of the relative error.
+        """
+        size = np.maximum(self.torque_squares, 1e-300)
+        share = np.sqrt(np.maximum(squares, 0.0) / size)
+        noise = np.maximum(self.free.sigma, self.before.sigma) ** 2 * self.count / size
+        return np.where(share >= THRESHOLDS.max_attenuation * noise, share, 0.0)
 
     def fit(self, hypotheses: Sequence[_Hypothesis]) -> _Fit:
         """Returns the fit of beta, and of what these hypotheses let differ."""
@@ -391,9 +420,9 @@ def _find_unexplained(seen: _Evidence, fit: _Fit) -> tuple[str, ...]:
     """Returns the joints whose rows a fit leaves much larger than fits of the sets of their own."""
     if fit.misfit <= seen.free.misfit + 2.0 * seen.chance_misfit:
         return ()
-    own = np.maximum(seen.free.sigma, seen.before.sigma)
-    left = np.sqrt(np.maximum(fit.squares, 0.0) / np.maximum(seen.count, 1))
-    large = (seen.weights > 0.0) & (left > THRESHOLDS.min_unexplained_ratio * own)
+    own = np.maximum(seen.free.sigma, seen.before.sigma) ** 2 * seen.count
+    large = fit.squares > THRESHOLDS.min_unexplained_ratio**2 * own
+    large &= (seen.weights > 0.0) & (seen.limit_shares(fit.squares - own) > 0.0)
     return tuple(seen.spec.joints[j].name for j in np.flatnonzero(large))
 
 

@@ -7,8 +7,9 @@ import re
 
 import pytest
 
+from modeler.api.checks import compare_with_provenance
 from tests.changed_machines.judge import name_changes
-from tests.changed_machines.machines import KINDS, NONE, ROBOTS, make_machine
+from tests.changed_machines.machines import KINDS, NONE, ROBOTS, make_machine, open_machine
 from tests.rotation import ROTATING, rotating
 
 FIRST = 100
@@ -28,4 +29,15 @@ def test_a_change_is_named_and_no_other(kind, seed):
 
 @pytest.mark.parametrize("seed", [FIRST, *rotating(*range(FIRST + 1, FIRST + 2 * len(ROBOTS)))])
 def test_nothing_is_named_of_a_machine_that_stayed(seed):
-    assert name_changes(make_machine(NONE, seed)) == ()
+    assert name_changes(make_machine(NONE, seed)) == []
+
+
+@pytest.mark.parametrize(("kind", "seed"), [("friction", FIRST), *rotating((NONE, FIRST))])
+def test_compare_names_it_from_the_model_alone(kind, seed):
+    machine = make_machine(kind, seed)
+    run = compare_with_provenance(
+        open_machine(machine.robot).fit([machine.before]), [machine.after]
+    )
+    changed = [line for line in run.format_lines() if line.startswith("changed between")]
+    assert len(changed) == (kind != NONE) and all(re.search(machine.pattern, x) for x in changed)
+    assert len(run.to_json()["machine_changed"]) == len(run.machine.changes)
