@@ -46,6 +46,7 @@ from .machine_change import (
     compare_machines as compare_machines,
     convert_model_fit as convert_model_fit,
     fit_machine as fit_machine,
+    merge_sums as merge_sums,
     sum_machine_rows as sum_machine_rows,
     sum_observation as sum_observation,
 )

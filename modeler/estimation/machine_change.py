@@ -15,7 +15,7 @@ numbers wins; a second one joins it only where the first leaves a significant di
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -102,11 +102,13 @@ class MachineComparison(ShortRepr):
             none is named.
         torque_columns: (J, c + 1) what the columns of each joint, and a constant, carry of the
             named changes in the logs after.
+        likeliest: effect that alone explains most, however little it is.
     """
 
     changes: tuple[ParameterChange, ...]
     unexplained: tuple[str, ...]
     torque_columns: np.ndarray
+    likeliest: str
 
     @property
     def differs(self) -> bool:
@@ -169,6 +171,12 @@ def sum_machine_rows(
     wide[: len(prior)] = prior
     numbers = [blocks[rows] for rows in used.T]
     return sum_joint_rows(both, y, numbers, THRESHOLDS.change_blocks, wide)
+
+
+def merge_sums(parts: Sequence[BlockSums]) -> BlockSums:
+    """Returns the normal equations of several logs together, block by block."""
+    names = ("gram", "cross", "squares", "count")
+    return replace(parts[0], **{n: sum(getattr(part, n) for part in parts) for n in names})
 
 
 def fit_machine(sums: BlockSums) -> OwnFit:
@@ -382,6 +390,11 @@ class _Evidence:
         sigma = np.sqrt(np.maximum(np.diag(inverse), 0.0))
         return _Fit(tuple(hypotheses), misfit, theta, sigma, own, left)
 
+    def select_best(self, fits: Sequence[_Fit]) -> _Fit:
+        """Returns the fit that leaves least, by the fewest numbers."""
+        each = THRESHOLDS.misfit_per_number
+        return min(fits, key=lambda fit: fit.misfit + each * len(fit.theta))
+
 
 def compare_machines(spec: ModuleSpec, before: OwnFit, after: BlockSums) -> MachineComparison:
     """Decides whether a machine changed between two sets of logs, and what of it.
@@ -392,13 +405,16 @@ def compare_machines(spec: ModuleSpec, before: OwnFit, after: BlockSums) -> Mach
         after: the other, of `sum_observation` or `sum_machine_rows`.
     """
     seen = _Evidence(spec, before, after)
-    fit = _select_changes(seen, _propose_changes(spec, before.beta))
+    proposed = _propose_changes(spec, before.beta)
+    likeliest = seen.select_best([seen.fit([each]) for each in proposed]).hypotheses[0].effect
+    fit = _select_changes(seen, proposed)
+    nothing = np.zeros_like(fit.torque_columns)
     if unexplained := _find_unexplained(seen, fit):
-        return MachineComparison((), unexplained, np.zeros_like(fit.torque_columns))
+        return MachineComparison((), unexplained, nothing, likeliest)
     changes = [change for change in _list_changes(seen, fit) if change.is_clear]
     changes.sort(key=lambda change: -change.share)
-    columns = fit.torque_columns if changes else np.zeros_like(fit.torque_columns)
-    return MachineComparison(tuple(changes), (), columns)
+    columns = fit.torque_columns if changes else nothing
+    return MachineComparison(tuple(changes), (), columns, likeliest)
 
 
 def _select_changes(seen: "_Evidence", proposed: Sequence[_Hypothesis]) -> _Fit:
@@ -408,8 +424,8 @@ def _select_changes(seen: "_Evidence", proposed: Sequence[_Hypothesis]) -> _Fit:
     for _ in range(limits.max_changes):
         if best.misfit <= seen.free.misfit + seen.chance_misfit:
             break
-        further = [seen.fit([*best.hypotheses, h]) for h in proposed if h not in best.hypotheses]
-        next_fit = min(further, key=lambda f: f.misfit + limits.misfit_per_number * len(f.theta))
+        others = [each for each in proposed if each not in best.hypotheses]
+        next_fit = seen.select_best([seen.fit([*best.hypotheses, each]) for each in others])
         if best.misfit - next_fit.misfit < max(limits.min_change_misfit, least):
             break
         best = next_fit

@@ -12,11 +12,13 @@ from modeler.core.result import Result
 from modeler.core.table import Column, align_columns, format_percent, format_rows
 from modeler.effects import CATALOGUE, find_effect
 from modeler.validation.fleet_drift import (
+    PeriodChange,
     QuantityTests,
     Unit,
     arrange_by_time,
     compute_line,
     evaluate_quantities,
+    name_changes,
 )
 from modeler.validation.fleet_logs import (
     FLEET_THRESHOLDS,
@@ -188,6 +190,7 @@ class Fleet(Result, Document):
         unit: of times: "days" or "periods".
         machines: names and their periods, in order.
         findings: the surest first.
+        changes: what of each machine that drifts changed, by name and size.
         histories: all that was looked at, and a load if one could be identified.
         false_alarm: chance that a fleet in which nothing drifts has any finding, at most.
         unresolved: common parameters that the logs cannot identify.
@@ -197,14 +200,15 @@ class Fleet(Result, Document):
     """
 
     KEYS = """
-        robot verdict time_unit=unit logs machines findings=described_findings quantities=histories
-        false_alarm unresolved skipped_logs=skipped_files warnings notes
+        robot verdict time_unit=unit logs machines findings=described_findings changes
+        quantities=histories false_alarm unresolved skipped_logs=skipped_files warnings notes
     """
 
     robot: str
     unit: Unit
     machines: Mapping[str, tuple[str, ...]]
     findings: tuple[FleetFinding, ...]
+    changes: tuple[PeriodChange, ...]
     histories: tuple[QuantityHistory, ...]
     false_alarm: float
     unresolved: tuple[str, ...]
@@ -308,6 +312,7 @@ def format_fleet(fleet: Fleet) -> list[str]:
     figure, what = format_headline(fleet)
     lines = [f"{fleet.robot}: {figure} {what}"]
     lines += [f"  {describe_finding(one, fleet.unit)}" for one in fleet.findings]
+    lines += [f"  {line}" for change in fleet.changes for line in change.sentences]
     lines += ["", *align_columns(format_rows(QUANTITY_COLUMNS, fleet.histories), (0, 1)), ""]
     lines.append(
         "detectable: the smallest straight drift over all periods that is a finding; chance of any "
@@ -368,7 +373,7 @@ def analyse_fleet(spec: ModuleSpec, summaries: Sequence[LogSummary | SkippedLog]
     logs, at, unit = arrange_by_time(used)
     layout = build_layout(spec)
     fit = fit_fleet(layout, logs)
-    tests = evaluate_quantities(layout, fit, logs, at)
+    tests = evaluate_quantities(spec, layout, fit, logs, at)
     findings = _build_findings(tests, logs)
     machines = _list_machines(logs)
     unused = dict.fromkeys(each.log_name.machine for each in apart)
@@ -379,6 +384,7 @@ def analyse_fleet(spec: ModuleSpec, summaries: Sequence[LogSummary | SkippedLog]
         robot=spec.robot,
         unit=unit,
         machines=machines,
+        changes=name_changes(spec, tests, logs),
         findings=tuple(sorted(findings, key=lambda one: (one.p_value, -abs(one.score)))),
         histories=_summarise_quantities(tests, logs),
         false_alarm=FLEET_THRESHOLDS.false_alarm,

@@ -10,6 +10,9 @@ from typing import Literal
 import numpy as np
 from scipy.special import digamma, ndtri, polygamma, stdtr, stdtrit
 
+from modeler.core.json import Document, ShortRepr
+from modeler.core.manifest import ModuleSpec
+from modeler.estimation import MachineComparison, compare_machines, fit_machine, merge_sums
 from modeler.validation.fleet_logs import (
     FLEET_THRESHOLDS,
     GAIN,
@@ -413,14 +416,14 @@ class QuantityTests:
 
 
 def evaluate_quantities(
-    layout: FleetLayout, fit: FleetFit, logs: Sequence[LogSummary], at: np.ndarray
+    spec: ModuleSpec, layout: FleetLayout, fit: FleetFit, logs: Sequence[LogSummary], at: np.ndarray
 ) -> QuantityTests:
     """Tests all quantities of all machines; confounders by what they explain.
 
     A load enters the torques of several joints, a gain those of one: of machines whose load seems
-    to change, the one that leaves less unexplained holds for all their logs, and the other is no
-    finding. Friction and offset are in units of the logged torque; where a gain drifts, they are
-    freed of it.
+    to change, what `compare_machines` says of logs before and after holds for all of them, and the
+    other is no finding. Friction and offset are in units of the logged torque; where a gain
+    drifts, they are freed of it.
     """
     names = list(dict.fromkeys(each.log_name.machine for each in logs))
     machine = np.array([names.index(each.log_name.machine) for each in logs])
@@ -428,7 +431,7 @@ def evaluate_quantities(
     tests = QuantityTests(layout.quantities, machine, at, values, sigmas)
     tests = dataclasses.replace(tests, scatters=_estimate_scatters(tests))
     if fit.load_fits:
-        tests = _apply_loads(tests, layout, fit)
+        tests = _apply_loads(tests, layout, fit, spec, logs)
     gains = [i for i, each in enumerate(tests.quantities) if each.effect == GAIN]
     others = [i for i, each in enumerate(tests.quantities) if each.effect != GAIN]
     tests = _remove_gains(_detect_drifts(tests, gains))
@@ -454,19 +457,43 @@ def _estimate_scatters(tests: QuantityTests) -> tuple[Scatter, ...]:
     return tuple(estimate_scatters(groups))
 
 
-def _apply_loads(tests: QuantityTests, layout: FleetLayout, fit: FleetFit) -> QuantityTests:
+def compare_periods(
+    spec: ModuleSpec, logs: Sequence[LogSummary], before: np.ndarray, after: np.ndarray
+) -> MachineComparison:
+    """Compares some logs with others, by their indices."""
+    both = [merge_sums([logs[k].sums for k in some]) for some in (before, after)]
+    return compare_machines(spec, fit_machine(both[0]), both[1])
+
+
+def split_logs(tests: QuantityTests, m: int, i: int) -> tuple[np.ndarray, np.ndarray]:
+    """Splits logs where a quantity of a machine changes; of an odd machine from all others."""
+    logs, move = tests.find_logs(m, i), tests.drifts.get((m, i))
+    if move is None:
+        return np.flatnonzero(tests.machine != m), logs
+    if move.shape == "trend":
+        return logs[:1], logs[-1:]
+    after = logs[move.begin :] if move.shape == "jump" else logs[[move.begin]]
+    return np.setdiff1d(logs, after), after
+
+
+def _apply_loads(
+    tests: QuantityTests,
+    layout: FleetLayout,
+    fit: FleetFit,
+    spec: ModuleSpec,
+    summaries: Sequence[LogSummary],
+) -> QuantityTests:
     """The fits with a load in place of gains, of machines that these describe better."""
     load = len(tests.quantities) - 1
     tested = _detect_drifts(tests, [load])
-    suspects = {m for m, _ in (*tested.drifts, *tested.outliers)}
+    suspects = sorted({m for m, _ in (*tested.drifts, *tested.outliers)})
     values, sigmas = tests.values.copy(), tests.sigmas.copy()
     first, loaded = len(layout.drift_columns), set[int]()
-    for m in range(tests.machine_count):
-        logs = np.flatnonzero(tests.machine == m)
-        gain, with_load = (sum(fits[k].misfit for k in logs) for fits in (fit.logs, fit.load_fits))
-        if m not in suspects or gain <= with_load:
+    for m in suspects:
+        if compare_periods(spec, summaries, *split_logs(tested, m, load)).likeliest != LOAD:
             continue
         loaded.add(m)
+        logs = np.flatnonzero(tests.machine == m)
         for k in logs:
             values[k, :first] = fit.load_fits[k].values[:first]
             sigmas[k, :first] = fit.load_fits[k].sigmas[:first]
@@ -530,3 +557,56 @@ def _compute_gain_scales(tests: QuantityTests) -> dict[tuple[int, int], np.ndarr
         if tests.quantities[key[1]].effect == GAIN:
             scales[key] = np.full(len(tests.find_logs(*key)), 1.0 + outlier.difference / 100.0)
     return {key: np.maximum(scale, 0.1) for key, scale in scales.items()}
+
+
+# What changed, by the rule of `diagnose` and `compare`.
+
+
+@dataclass(frozen=True, eq=False)
+class PeriodChange(ShortRepr, Document):
+    """What differs between some periods of a machine, by the rule of `diagnose` and `compare`.
+
+    Attributes:
+        machine: name.
+        before, after: periods, or "the other machines".
+        comparison: of the two.
+    """
+
+    KEYS = "machine before after changes=comparison.changes sentences"
+
+    machine: str
+    before: str
+    after: str
+    comparison: MachineComparison
+
+    @property
+    def sentences(self) -> list[str]:
+        """Returns a sentence for each place that changed."""
+        lines = self.comparison.describe(f"{self.before} and {self.after}")
+        return [f"machine {self.machine}: {line}" for line in lines]
+
+
+def name_changes(
+    spec: ModuleSpec, tests: QuantityTests, logs: Sequence[LogSummary]
+) -> tuple[PeriodChange, ...]:
+    """Names what changed where a finding begins, and between the periods of a machine with two."""
+    changes: dict[tuple[str, str, str], PeriodChange] = {}
+    splits = [(m, *split_logs(tests, m, i)) for m, i in (*tests.drifts, *tests.outliers)]
+    for m in range(tests.machine_count):
+        every = np.flatnonzero(tests.machine == m)
+        if len(every) == 2:
+            splits.append((m, every[:1], every[1:]))
+    for m, before, after in splits:
+        ends = []
+        for some in (before, after):
+            names = [logs[k].log_name.period for k in some]
+            others = tests.machine[some[0]] != m
+            ends.append("the other machines" if others else _format_span(names))
+        key = logs[after[0]].log_name.machine, ends[0], ends[1]
+        if key not in changes:
+            changes[key] = PeriodChange(*key, compare_periods(spec, logs, before, after))
+    return tuple(each for each in changes.values() if each.comparison.changes)
+
+
+def _format_span(names: Sequence[str]) -> str:
+    return names[0] if len(names) == 1 else f"{names[0]} to {names[-1]}"

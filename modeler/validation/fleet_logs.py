@@ -16,6 +16,7 @@ from modeler.core.files import read_text
 from modeler.core.json import ShortRepr, parse_toml
 from modeler.core.manifest import EmittedModule, ModuleSpec
 from modeler.estimation import (
+    build_load_columns,
     estimate_correlation,
     find_contradictions,
     find_disconnected_joints,
@@ -24,6 +25,7 @@ from modeler.estimation import (
     solve_by_qr,
     solve_least_squares,
     sum_lagged_products,
+    sum_observation,
 )
 from modeler.logs import LogMap
 from modeler.numerics.least_squares import (
@@ -32,7 +34,15 @@ from modeler.numerics.least_squares import (
     compute_triangle,
     find_independent_columns,
 )
-from modeler.regression import Log, Observation, Processing, cut_window, observe, read_log
+from modeler.regression import (
+    BlockSums,
+    Log,
+    Observation,
+    Processing,
+    cut_window,
+    observe,
+    read_log,
+)
 from modeler.runtime import CompiledModel, load_cached_model
 
 
@@ -66,8 +76,6 @@ class FleetThresholds:
     """Other machines that must warm up to confirm the cause."""
     min_shared_change: float = 0.5
     """Of the change per kelvin, that others must show. No study."""
-    load_tolerance: float = 1e-8
-    """Share of a column's length that is rounding."""
     fit_rounds: int = 3
     """Iterations of common parameters and gains."""
     min_gain_t: float = 4.0
@@ -273,6 +281,7 @@ class LogSummary:
         span: first and last time, s.
         samples: after decimation.
         data: triangles of [W_j y_j], joint by joint; those of a dead joint are 0.
+        sums: normal equations by block of time, of `compare_machines`.
         repeats: (n, c, c) sum_k r_j(k) sum_t w_j(t) w_j(t + k)^T + transpose, see `coloured`.
         temperatures: mean of each column, by the joint that its name ends in; "" for all.
         processing: with all choices filled in.
@@ -285,6 +294,7 @@ class LogSummary:
     span: tuple[float, float]
     samples: int
     data: CompressedRegression
+    sums: BlockSums
     repeats: np.ndarray
     temperatures: Mapping[str, float] = field(default_factory=dict)
     processing: Processing | None = None
@@ -346,6 +356,7 @@ def summarise_log(
         span=(float(log.time[0]), float(log.time[-1])),
         samples=len(observation.time),
         data=data,
+        sums=sum_observation(observation),
         repeats=_compute_repeats(observation, W, joint, observation.row_sample[alive], residual),
         temperatures={
             name.removeprefix(TEMPERATURE): float(np.mean(values))
@@ -421,8 +432,6 @@ def separate_foreign_logs(
 
 GAIN, LOAD = "drive_gain", "payload"
 """Ids of the catalogue: what scales the torques of a joint, and what a link carries."""
-
-_LOAD_ORDER = ("M", "MX", "MY", "MZ", "ZZ", "XX", "YY", "XY", "XZ", "YZ")
 
 
 @dataclass(frozen=True)
@@ -504,28 +513,7 @@ def build_layout(spec: ModuleSpec) -> FleetLayout:
     if common.any():
         motors = [(j, joint.name) for j, joint in enumerate(spec.joints) if joint.actuated]
         drifting += [Quantity(GAIN, name, f"gain {name}", "%", -1, j) for j, name in motors]
-    return FleetLayout(tuple(drifting), common, _build_load_columns(spec))
-
-
-def _build_load_columns(spec: ModuleSpec) -> np.ndarray:
-    """(c, r), independent columns; none if the load's mass changes no base parameter."""
-    closure = spec.closure
-    link = spec.joints[-1].name if closure is None else closure.carrier or closure.variables[-1]
-    columns: list[np.ndarray] = []
-    basis = np.zeros((len(spec.base), 0))
-    for letters in _LOAD_ORDER:
-        terms = ([t.value for t in b.terms if t.parameter == f"{letters}{link}"] for b in spec.base)
-        column = np.array([sum(values) for values in terms], dtype=float)
-        length = float(np.linalg.norm(column))
-        if length == 0.0 and letters == "M":
-            break
-        rest = column / length if length > 0.0 else column
-        for _ in range(2):
-            rest = rest - basis @ (basis.T @ rest)
-        if np.linalg.norm(rest) > FLEET_THRESHOLDS.load_tolerance:
-            columns.append(column)
-            basis = np.column_stack([basis, rest / np.linalg.norm(rest)])
-    return np.column_stack(columns) if columns else np.zeros((len(spec.base), 0))
+    return FleetLayout(tuple(drifting), common, build_load_columns(spec))
 
 
 @dataclass(frozen=True, eq=False)
@@ -536,13 +524,10 @@ class LogFit:
         values: (d,) friction and offset in SI units, then gains as a share (0.05: 5 % more torque)
             or the load, mass in kg first.
         sigmas: (d,) their standard deviations, with what the residuals are autocorrelated.
-        misfit: sum over the joints of ||r_j||^2 / sigma_j^2, sigma of the log's own fit, and over
-            the unknowns of what each takes off it by chance.
     """
 
     values: np.ndarray
     sigmas: np.ndarray
-    misfit: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -657,7 +642,7 @@ def _fit_log(each: LogSummary, sigma: np.ndarray, theta: np.ndarray, blocks: Blo
     ratio = np.maximum(1.0 + np.diag(bread @ middle @ bread) / white, 1.0)
     all_values, sigmas = (np.full(blocks[0].shape[1], np.nan) for _ in range(2))
     all_values[used_columns], sigmas[used_columns] = values, np.sqrt(white * ratio)
-    return LogFit(all_values, sigmas, float(np.sum((left / sigma) ** 2) + ratio.sum()))
+    return LogFit(all_values, sigmas)
 
 
 def _solve_log(
