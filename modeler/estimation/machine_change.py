@@ -411,7 +411,8 @@ def compare_machines(spec: ModuleSpec, before: OwnFit, after: BlockSums) -> Mach
     nothing = np.zeros_like(fit.torque_columns)
     if unexplained := _find_unexplained(seen, fit):
         return MachineComparison((), unexplained, nothing, likeliest)
-    changes = [change for change in _list_changes(seen, fit) if change.is_clear]
+    explains = seen.fit(()).misfit - fit.misfit >= THRESHOLDS.min_change_misfit
+    changes = [each for each in _list_changes(seen, fit) if explains and each.is_clear]
     changes.sort(key=lambda change: -change.share)
     columns = fit.torque_columns if changes else nothing
     return MachineComparison(tuple(changes), (), columns, likeliest)
@@ -426,7 +427,7 @@ def _select_changes(seen: "_Evidence", proposed: Sequence[_Hypothesis]) -> _Fit:
             break
         others = [each for each in proposed if each not in best.hypotheses]
         next_fit = seen.select_best([seen.fit([*best.hypotheses, each]) for each in others])
-        if best.misfit - next_fit.misfit < max(limits.min_change_misfit, least):
+        if best.misfit - next_fit.misfit < max(limits.min_further_misfit, least):
             break
         best = next_fit
     return best
@@ -438,7 +439,8 @@ def _find_unexplained(seen: _Evidence, fit: _Fit) -> tuple[str, ...]:
         return ()
     own = np.maximum(seen.free.sigma, seen.before.sigma) ** 2 * seen.count
     large = fit.squares > THRESHOLDS.min_unexplained_ratio**2 * own
-    large &= (seen.weights > 0.0) & (seen.limit_shares(fit.squares - own) > 0.0)
+    shares = seen.limit_shares(fit.squares - own)
+    large &= (seen.weights > 0.0) & (shares >= THRESHOLDS.min_changed_share)
     return tuple(seen.spec.joints[j].name for j in np.flatnonzero(large))
 
 

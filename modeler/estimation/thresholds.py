@@ -100,8 +100,10 @@ class Thresholds:
     misfit_per_number: float = 6.0
     """Misfit that a number more must explain: half of log(rows), of 1e5 rows."""
     min_change_misfit: float = 200.0
-    """Misfit that a change must explain; tests/changed_machines: effects that the model lacks look
-    like changes of at most 190, changes on encoders of 65 536 counts have over 2000."""
+    """Misfit that changes must explain to be named; tests/changed_machines: over 2000 on encoders
+    of 65 536 counts, up to 190 for friction that the model lacks."""
+    min_further_misfit: float = 40.0
+    """Misfit that a further change must explain: warmth alone may; no study."""
     min_explained_misfit: float = 0.02
     """Share of the difference that a further change must explain; no study."""
     max_changes: int = 3
@@ -111,7 +113,8 @@ class Thresholds:
     min_friction_change: float = 0.1
     """Relative change of a friction parameter: warmth alone changes it by less; no study."""
     min_changed_share: float = 0.02
-    """Share of a joint's rms torque that a changed offset, gain or load makes; no study."""
+    """Share of a joint's rms torque that a changed offset, gain or load makes, or a difference
+    that nothing explains; no study."""
     min_changed_friction_share: float = 0.005
     """The same of one friction parameter; no study."""
     max_attenuation: float = 3.0
