@@ -214,10 +214,11 @@ def test_an_effect_is_named_beside_a_change(case: Case) -> None:
 
 @pytest.mark.rotating("diagnoses of simulated runs")
 def test_a_difference_without_a_name_is_told(case: Case) -> None:
-    """Gravity of a mass on link 2: no load of the last link, which would bend joint 3 too."""
+    """Inertia of the motor of joint 2: no friction, no load."""
     model, train, holdout = case.hidden(nothing)
-    weight = on_joint(holdout, 1, 4.0 * np.cos(motion(holdout)[0][:, 1]))
-    holdout = dataclasses.replace(holdout, tau=holdout.tau + weight, content="y")
+    acceleration = np.gradient(motion(holdout)[1][:, 1], holdout.time)
+    torque = on_joint(holdout, 1, 2.0 * acceleration)
+    holdout = dataclasses.replace(holdout, tau=holdout.tau + torque, content="y")
     result = diagnose(model, case.compiled, [train], [holdout])
     assert result.unexplained_change == ("2",) and not result.machine_changed, result.sentences
     assert result.effects == () and result.held_out_logs == ()
