@@ -72,6 +72,11 @@ def fleet(
     if workers is not None and workers < 1:
         raise OptionError(f"{{--workers}}: got {workers}; expected 1 or more")
     named_paths = () if isinstance(logs, Mapping) else _name_files(logs, name, listed)
+    if robot.rigid.effects != robot.effects:
+        raise DataError(
+            f"{robot.name}: a joint is elastic, which a fleet is not fitted with; expected rigid "
+            "joints; take elasticity out of [effects]"
+        )
     with reporter.report_step(f"deriving {robot.name}"):
         emitted = generate(derive(robot))
         compiled = compile_model(emitted)

@@ -149,8 +149,12 @@ class Encoders:
 
 
 def build_subject(thing: Robot | IdentifiedModel) -> Subject:
-    """Returns what is known of a robot, or of a model with its fitted values."""
+    """Returns what is known of a robot, or of a model with its fitted values.
+
+    Elastic joints are rigid here: slopes along a motion know nothing of what winds up.
+    """
     if isinstance(thing, Robot):
+        thing = thing.rigid
         compiled = compile_model(generate(derive(thing)))
         values = [parameter.nominal for parameter in compiled.spec.standard]
         known = None not in values  # the robot file may leave some open
@@ -160,6 +164,9 @@ def build_subject(thing: Robot | IdentifiedModel) -> Subject:
     known = bool(np.all(np.isfinite(sigma)) and np.all(sigma > 0.0))
     essential_columns = np.flatnonzero([parameter.essential for parameter in thing.fit.parameters])
     cutoff = thing.processing.parallel_cutoff or 0.0
+    if thing.spec.windups:
+        rigid = build_subject(robot)
+        return dataclasses.replace(rigid, sigma=sigma if known else None, cutoff=cutoff)
     return Subject(
         robot, compile(thing), sigma if known else None, essential_columns, thing.beta, cutoff
     )

@@ -350,7 +350,7 @@ def compute_signals_along(
         return None
     names, read = [joint.name for joint in spec.joints], np.zeros((len(time), len(spec.signals)))
     step = (time[-1] - time[0]) / max(1, len(time) - 1)
-    if model.windup_values is not None:
+    if model.windup_values is not None and step > 0.0:  # else states that are no motion
         q, qd, qdd = motion
         read = model.compute_windup(q, qd, qdd, step, *model.windup_values)
     for k, signal in enumerate(spec.signals):

@@ -397,6 +397,13 @@ class Robot(Result):
                 return values[state.parameter], values[state.damping]
         return None
 
+    @property
+    def rigid(self) -> "Robot":
+        """Returns the robot without its elastic joints."""
+        elastic = {effect.id for effect in self.catalogue if effect.usual_form.is_windup}
+        uses = (use for use in self.effects if use.effect not in elastic)
+        return replace(self, effects=tuple(uses))
+
     def set_windups(self, sizes: Sequence[float]) -> "Robot":
         """Returns the robot with these stiffnesses, then dampings, of its elastic joints."""
         joints = [j.name for j in self.moving_joints if self.find_windup(j.name) is not None]

@@ -299,8 +299,7 @@ def simulate(
     all_limits = trajectory.collect_motion_limits(robot, settings.limits)
     elastic = collect_elastic_joints(robot)
     if elastic:  # two masses each, as where the robot file does not say so
-        rigid = [use for use in robot.effects if use.effect != elastic[0].effect]
-        robot = dataclasses.replace(robot, effects=tuple(rigid))
+        robot = robot.rigid
         settings = dataclasses.replace(settings, hidden=(*elastic, *settings.hidden))
     if robot.loops and not settings.controller:
         return _simulate_exact_command(robot, all_limits, settings, progress)

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from modeler.api import compare, derive, export, generate, load, simulate
+from modeler.api import compare, derive, export, fleet, generate, load, simulate
 from modeler.api.checks import prepare_models, simulate_positions
-from modeler.core.errors import RobotError, SolutionError
+from modeler.api.motion import build_subject
+from modeler.core.errors import DataError, RobotError, SolutionError
 from modeler.core.options import CompareOptions
 from modeler.robot import Robot
 from modeler.robot.edit import replace_effects
@@ -295,6 +296,13 @@ def test_a_free_run_keeps_motor_and_link_apart(tmp_path):
         errors.append(np.sqrt(np.mean(apart[:, 1] ** 2)))
         assert run.numerical < 1e-4
     assert errors[0] < errors[1] / 5.0
+
+
+def test_motions_are_designed_for_rigid_joints_and_fleets_refuse_elastic_ones():
+    robot = parse_robot_text(PENDULUM, "pendulum")
+    assert build_subject(robot).compiled.spec.windups == ()
+    with pytest.raises(DataError, match="a joint is elastic, which a fleet is not fitted with"):
+        fleet(robot, {"one": {"mon": {}, "tue": {}}})
 
 
 REFUSED = {
