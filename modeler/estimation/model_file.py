@@ -472,7 +472,8 @@ def build_fitted_spec(model: IdentifiedModel) -> FittedSpec:
     values = tuple(FittedParameter(*p) for p in every)
     gains = gains if len(gains) == len(joints) else ()
     remarks = tuple(_write_remarks(model))
-    return FittedSpec(fit.method, *judged, remarks, values, gains)
+    elastic = () if fit.elastic_values is None else tuple(map(float, fit.elastic_values))
+    return FittedSpec(fit.method, *judged, remarks, values, gains, elastic=elastic)
 
 
 def _write_remarks(model: IdentifiedModel) -> list[str]:

@@ -250,11 +250,13 @@ class Original:
 
 
 def get_robot(robot_or_model: Robot | IdentifiedModel) -> Robot:
-    """Returns the robot, or that of the model."""
+    """Returns the robot, or that of the model, its elastic joints as they were fitted."""
     if isinstance(robot_or_model, Robot):
         return robot_or_model
     where = f"model of {robot_or_model.spec.robot}, robot_text"
-    return parse_robot_text(robot_or_model.robot_text, where)
+    robot, values = parse_robot_text(robot_or_model.robot_text, where), robot_or_model.fit
+    sizes = values.elastic_values
+    return robot if sizes is None else robot.set_windups(sizes.tolist())
 
 
 def build_export_parameters(
