@@ -2,6 +2,7 @@
 
 import subprocess
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -296,6 +297,20 @@ def test_a_free_run_keeps_motor_and_link_apart(tmp_path):
         errors.append(np.sqrt(np.mean(apart[:, 1] ** 2)))
         assert run.numerical < 1e-4
     assert errors[0] < errors[1] / 5.0
+
+
+def test_what_goes_out_of_a_model_has_the_fitted_stiffness(tmp_path):
+    values = "\n".join(f"{name} = {value}" for name, value in VALUES.items())
+    robot = parse_robot_text(f"{PENDULUM}[parameters]\n{values}\n", "pendulum")
+    (model,) = prepare_models([robot], CompareOptions())
+    sizes = [("K1", "N m/rad", 2000.0), ("D1", "N m s/rad", 3.0)]
+    fitted = [replace(model.fit.parameters[0], name=n, unit=u, value=x) for n, u, x in sizes]
+    model = replace(model, fit=replace(model.fit, elastic=tuple(fitted)))
+    generate(model, tmp_path)
+    assert "stiffness 2000, damping 3." in (tmp_path / "pendulum_fitted.h").read_text()
+    c = (tmp_path / "pendulum_fitted.c").read_text()
+    assert "2000.0" in c and "3000.0" not in c
+    assert b'stiffness="2000" damping="3"' in export(model, to="mjcf").data
 
 
 def test_motions_are_designed_for_rigid_joints_and_fleets_refuse_elastic_ones():

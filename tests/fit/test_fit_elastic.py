@@ -1,4 +1,4 @@
-"""Elastic joints in a fit: slopes against differences, values against a motion of the C's windup."""
+"""Elastic joints in a fit: slopes against differences, values against the windup of the C."""
 
 import dataclasses
 
