@@ -335,6 +335,15 @@ def test_what_is_no_elastic_joint_is_refused(line):
         parse_robot_text(text, "pendulum")
 
 
+def test_joints_of_loops_and_of_motors_that_turn_several_are_refused():
+    effects = {"rotor_inertia": ["11"], "elasticity": [{"joint": "11", "K": 9.0, "D": 1.0}]}
+    with pytest.raises(RobotError, match='"11" cannot be elastic in a robot with loops'):
+        parse_robot_text(replace_effects(load("five-bar").text, effects), "five-bar")
+    coupled = write_arm(ARM).text + '\n[coupling]\n3 = "q2 + q3"\n'
+    with pytest.raises(RobotError, match='"2" turns with other joints'):
+        parse_robot_text(coupled, "arm")
+
+
 def test_an_elastic_joint_needs_its_motors_inertia():
     with pytest.raises(RobotError, match='joint "1" has no inertia of its motor; add "1" to rotor'):
         parse_robot_text(PENDULUM.replace('rotor_inertia = ["1"]\n', ""), "pendulum")
