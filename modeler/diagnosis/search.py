@@ -187,8 +187,11 @@ class CandidateScan:
         if not rings:
             return []
         others = any(pick.elastic is not None for pick in state.picks) or state.spec.windups
-        least = -np.inf if others else share * best[0].total_share
-        return [j for j in rings[: THRESHOLDS.max_fitted_windups] if j.total_share > least]
+        rings = rings[: THRESHOLDS.max_fitted_windups]
+        if others:
+            return rings
+        likely = [j for j in rings if j.total_share > share * best[0].total_share]
+        return [j for j in likely if j.variance_reduction > THRESHOLDS.min_refined_gain]
 
     def refine_candidate(
         self, score: ScoredCandidate, starts: Sequence[Candidate]
