@@ -40,8 +40,8 @@ from .long_logs import (
 )
 from .machine_change import (
     MachineComparison as MachineComparison,
-    OwnFit as OwnFit,
     ParameterChange as ParameterChange,
+    SingleFit as SingleFit,
     build_load_columns as build_load_columns,
     compare_machines as compare_machines,
     convert_model_fit as convert_model_fit,

@@ -27,6 +27,7 @@ from modeler.estimation.payload import ORDER, find_carrier
 from modeler.estimation.thresholds import THRESHOLDS
 from modeler.numerics.least_squares import compute_column_norms
 from modeler.regression import (
+    THRESHOLDS as REGRESSION,
     BlockSums,
     Observation,
     compute_prior_weights,
@@ -139,7 +140,7 @@ class MachineComparison(ShortRepr):
 
 
 @dataclass(frozen=True, eq=False)
-class OwnFit(ShortRepr):
+class SingleFit(ShortRepr):
     """A fit of one set of logs: beta (c,), its information (c, c), sigma (J,) of the rows."""
 
     beta: np.ndarray
@@ -165,12 +166,12 @@ def sum_machine_rows(
     W: Sequence[np.ndarray], y: Sequence[np.ndarray], used: np.ndarray, prior: np.ndarray
 ) -> BlockSums:
     """Returns the normal equations of rows W_j (rows_j, c), y_j of the samples used (s, J)."""
-    blocks = np.arange(len(used)) * THRESHOLDS.change_blocks // max(len(used), 1)
+    blocks = np.arange(len(used)) * REGRESSION.time_blocks // max(len(used), 1)
     both = [np.column_stack([w, np.ones(len(w))]) for w in W]
     wide = np.zeros(both[0].shape[1])
     wide[: len(prior)] = prior
     numbers = [blocks[rows] for rows in used.T]
-    return sum_joint_rows(both, y, numbers, THRESHOLDS.change_blocks, wide)
+    return sum_joint_rows(both, y, numbers, wide)
 
 
 def merge_sums(parts: Sequence[BlockSums]) -> BlockSums:
@@ -179,20 +180,20 @@ def merge_sums(parts: Sequence[BlockSums]) -> BlockSums:
     return replace(parts[0], **{n: sum(getattr(part, n) for part in parts) for n in names})
 
 
-def fit_machine(sums: BlockSums) -> OwnFit:
+def fit_machine(sums: BlockSums) -> SingleFit:
     """Returns the fit of a set of logs, without the constants."""
     fit = _FreeFit(sums, [np.eye(sums.gram.shape[-1])[:, :-1]] * len(sums.gram))
-    return OwnFit(fit.solution, fit.normal, fit.sigma)
+    return SingleFit(fit.solution, fit.normal, fit.sigma)
 
 
-def convert_model_fit(model: IdentifiedModel) -> OwnFit:
+def convert_model_fit(model: IdentifiedModel) -> SingleFit:
     """Returns the fit of a model as that of one set of logs, with the covariance that it states."""
     covariance = model.covariance
     known = np.diag(covariance) > 0.0
     information = np.where(np.outer(known, known), _invert(covariance), 0.0)
     sigmas = {joint.name: joint.sigma for joint in model.fit.joints}
     sigma = np.array([sigmas.get(joint.name, 0.0) for joint in model.spec.joints])
-    return OwnFit(model.beta, information, sigma)
+    return SingleFit(model.beta, information, sigma)
 
 
 class _FreeFit:
@@ -207,7 +208,7 @@ class _FreeFit:
         products = np.stack([m.T @ g @ m for m, g in zip(maps, gram, strict=True)])
         sides = np.stack([m.T @ x for m, x in zip(maps, cross, strict=True)])
         driven, left = squares > 0.0, squares
-        for _ in range(THRESHOLDS.change_reweightings):
+        for _ in range(REGRESSION.block_reweightings):
             weights = np.where(driven, count / np.maximum(left, 1e-300), 0.0)
             self.normal = np.diag(prior) + np.tensordot(weights, products, 1)
             self.solution = _invert(self.normal) @ (weights @ sides)
@@ -254,41 +255,41 @@ def _compute_excess(sums: BlockSums, j: int, beta: np.ndarray) -> float:
 
 @dataclass(frozen=True, eq=False)
 class _Hypothesis:
-    """What may have changed: the columns C_j (J, c + 1, d); base parameters that they stand for."""
+    """What may have changed: columns C_j (J, c + 1, d), and what they are, as it was before."""
 
-    effect: str
-    joint: str | None
     columns: np.ndarray
-    places: tuple[int, ...] = ()
+    parameters: tuple[ParameterChange, ...]
 
 
-def _propose_changes(spec: ModuleSpec, beta: np.ndarray) -> list[_Hypothesis]:
-    joints, width = len(spec.joints), len(beta) + 1
-    owners = {p.name: p.joint for p in spec.standard}
-    places: dict[tuple[str, str], list[int]] = {}
+def _propose_changes(spec: ModuleSpec, before: SingleFit) -> list[_Hypothesis]:
+    joints, unit = len(spec.joints), np.eye(len(before.beta) + 1)
+    deviations = np.sqrt(np.diag(_invert(before.information)))
+    standard = {p.name: p for p in spec.standard}
+    bases: dict[tuple[str, str], dict[int, ParameterChange]] = {}
     for i, base in enumerate(spec.base):
-        places.setdefault((base.kind, owners[base.column_of]), []).append(i)
+        whose, ends = standard[base.column_of], (float(before.beta[i]),) * 2
+        names = base.name, whose.effect, whose.joint
+        change = ParameterChange(*names, *ends, float(deviations[i]), 0.0, base.unit, 0.0)
+        bases.setdefault((base.kind, whose.joint), {})[i] = change
     proposed = [
-        _Hypothesis("friction", joint, np.stack([np.eye(width)[:, some]] * joints), tuple(some))
-        for (kind, joint), some in places.items()
+        _Hypothesis(np.stack([unit[:, list(some)]] * joints), tuple(some.values()))
+        for (kind, _), some in bases.items()
         if kind == "friction"
     ]
     for j, joint in enumerate(spec.joints):
-        if not joint.actuated:
-            continue
-        offsets = tuple(places.get(("offset", joint.name), ()))
-        for effect, column, some in (
-            ("offset", np.eye(width)[-1], offsets),
-            ("drive_gain", np.append(beta, 0.0), ()),
-        ):
-            columns = np.zeros((joints, width, 1))
+        name, zero, one = joint.name, (0.0,) * 4, (1.0, 1.0, 0.0, 0.0)
+        offset = ParameterChange(f"Off{name}", "offset", name, *zero, joint.effort_unit, 0.0)
+        offset = next(iter(bases.get(("offset", name), {}).values()), offset)
+        gain = ParameterChange(f"gain {name}", "drive_gain", name, *one, "1", 0.0)
+        for change, column in ((offset, unit[-1]), (gain, np.append(before.beta, 0.0))):
+            columns = np.zeros((joints, len(unit), 1))
             columns[j, :, 0] = column
-            proposed.append(_Hypothesis(effect, joint.name, columns, some))
+            proposed.append(_Hypothesis(columns, (change,)))
     load = build_load_columns(spec)
     if load.shape[1]:
-        padded = np.zeros((width, load.shape[1]))
-        padded[: len(load)] = load
-        proposed.append(_Hypothesis("payload", None, np.stack([padded] * joints)))
+        load = np.pad(load, ((0, len(unit) - len(load)), (0, 0)))
+        change = ParameterChange("load", "payload", None, 0.0, 0.0, 0.0, 0.0, "kg", 0.0)
+        proposed.append(_Hypothesis(np.stack([load] * joints), (change,)))
     return proposed
 
 
@@ -306,7 +307,7 @@ def build_load_columns(spec: ModuleSpec) -> np.ndarray:
                 break
             continue
         rest = column - columns @ np.linalg.lstsq(columns, column)[0]
-        if np.linalg.norm(rest) > THRESHOLDS.load_tolerance * np.linalg.norm(column):
+        if np.linalg.norm(rest) > THRESHOLDS.column_tolerance * np.linalg.norm(column):
             columns = np.column_stack([columns, column])
     return columns
 
@@ -334,16 +335,16 @@ class _Fit:
 class _Evidence:
     """The logs after, with what a fit to those before expects of them."""
 
-    def __init__(self, spec: ModuleSpec, before: OwnFit, after: BlockSums) -> None:
+    def __init__(self, spec: ModuleSpec, before: SingleFit, after: BlockSums) -> None:
         self.spec, self.before, self.gram = spec, before, after.gram.sum(axis=1)
         cross, beta = after.cross.sum(axis=1), np.append(before.beta, 0.0)
         self.torque_squares, self.count = after.squares.sum(axis=1), after.count.sum(axis=1)
         joints, width = cross.shape
         maps = []
         for j in range(joints):  # every parameter, constant and gain may differ
-            own = np.zeros((width, 2 * joints))
-            own[-1, j], own[:, joints + j] = 1.0, beta
-            maps.append(np.column_stack([np.eye(width)[:, :-1], own]))
+            beside = np.zeros((width, 2 * joints))
+            beside[-1, j], beside[:, joints + j] = 1.0, beta
+            maps.append(np.column_stack([np.eye(width)[:, :-1], beside]))
         self.free = _FreeFit(after, maps)
         self.weights = self.free.weights
         self.cross = cross - self.gram @ beta
@@ -383,12 +384,11 @@ class _Evidence:
         side = np.einsum("j,jcd,jc->d", self.weights, C, self.cross) - beside.T @ step
         theta = inverse @ side
         moved = self.inverse @ (self.side - beside @ theta)
-        own = C @ theta
+        changed = C @ theta
         misfit = float(self.weights @ self.squares - self.side @ step - side @ theta)
-        whole = own + np.append(moved, 0.0)
-        left = _sum_squares(self.squares, self.cross, self.gram, whole)
+        left = _sum_squares(self.squares, self.cross, self.gram, changed + np.append(moved, 0.0))
         sigma = np.sqrt(np.maximum(np.diag(inverse), 0.0))
-        return _Fit(tuple(hypotheses), misfit, theta, sigma, own, left)
+        return _Fit(tuple(hypotheses), misfit, theta, sigma, changed, left)
 
     def select_best(self, fits: Sequence[_Fit]) -> _Fit:
         """Returns the fit that leaves least, by the fewest numbers."""
@@ -396,7 +396,7 @@ class _Evidence:
         return min(fits, key=lambda fit: fit.misfit + each * len(fit.theta))
 
 
-def compare_machines(spec: ModuleSpec, before: OwnFit, after: BlockSums) -> MachineComparison:
+def compare_machines(spec: ModuleSpec, before: SingleFit, after: BlockSums) -> MachineComparison:
     """Decides whether a machine changed between two sets of logs, and what of it.
 
     Args:
@@ -405,8 +405,9 @@ def compare_machines(spec: ModuleSpec, before: OwnFit, after: BlockSums) -> Mach
         after: the other, of `sum_observation` or `sum_machine_rows`.
     """
     seen = _Evidence(spec, before, after)
-    proposed = _propose_changes(spec, before.beta)
-    likeliest = seen.select_best([seen.fit([each]) for each in proposed]).hypotheses[0].effect
+    proposed = _propose_changes(spec, before)
+    best = seen.select_best([seen.fit([each]) for each in proposed])
+    likeliest = best.hypotheses[0].parameters[0].effect
     fit = _select_changes(seen, proposed)
     nothing = np.zeros_like(fit.torque_columns)
     if unexplained := _find_unexplained(seen, fit):
@@ -422,7 +423,7 @@ def _select_changes(seen: "_Evidence", proposed: Sequence[_Hypothesis]) -> _Fit:
     """Returns the fit of what changed, one hypothesis after the other; without any, of none."""
     best, limits = seen.fit(()), THRESHOLDS
     least = limits.min_explained_misfit * (best.misfit - seen.free.misfit)
-    for _ in range(limits.max_changes):
+    for _ in range(min(limits.max_changes, len(proposed))):
         if best.misfit <= seen.free.misfit + seen.chance_misfit:
             break
         others = [each for each in proposed if each not in best.hypotheses]
@@ -437,38 +438,22 @@ def _find_unexplained(seen: _Evidence, fit: _Fit) -> tuple[str, ...]:
     """Returns the joints whose rows a fit leaves much larger than fits of the sets of their own."""
     if fit.misfit <= seen.free.misfit + 2.0 * seen.chance_misfit:
         return ()
-    own = np.maximum(seen.free.sigma, seen.before.sigma) ** 2 * seen.count
-    large = fit.squares > THRESHOLDS.min_unexplained_ratio**2 * own
-    shares = seen.limit_shares(fit.squares - own)
+    alone = np.maximum(seen.free.sigma, seen.before.sigma) ** 2 * seen.count
+    large = fit.squares > THRESHOLDS.min_unexplained_ratio**2 * alone
+    shares = seen.limit_shares(fit.squares - alone)
     large &= (seen.weights > 0.0) & (shares >= THRESHOLDS.min_changed_share)
     return tuple(seen.spec.joints[j].name for j in np.flatnonzero(large))
 
 
 def _list_changes(seen: _Evidence, fit: _Fit) -> Iterator[ParameterChange]:
     """Yields the quantities that a fit lets differ."""
-    spec, beta = seen.spec, seen.before.beta
-    deviations = np.sqrt(np.diag(_invert(seen.before.information)))
-    standard = {p.name: p for p in spec.standard}
-    units = {joint.name: joint.effort_unit for joint in spec.joints}
-    starts = np.cumsum([0, *(each.columns.shape[2] for each in fit.hypotheses)])
-    for each, first in zip(fit.hypotheses, starts, strict=False):
-        theta, sigma = (x[first : first + each.columns.shape[2]] for x in (fit.theta, fit.sigma))
-        if each.effect == "friction":
-            for k, place in enumerate(each.places):
-                base, share = spec.base[place], seen.measure(each.columns[:, :, k] * theta[k])
-                effect, value = standard[base.column_of].effect, float(beta[place])
-                ends = value, value + float(theta[k]), float(deviations[place]), float(sigma[k])
-                yield ParameterChange(base.name, effect, each.joint, *ends, base.unit, share)
-            continue
-        value, deviation, name, unit = 0.0, 0.0, "load", "kg"
-        if each.effect == "drive_gain":
-            value, name, unit = 1.0, f"gain {each.joint}", "1"
-        elif each.joint is not None:
-            name, unit = f"Off{each.joint}", units[each.joint]
-            if each.places:
-                place = each.places[0]
-                name, value = spec.base[place].name, float(beta[place])
-                deviation = float(deviations[place])
-        ends = value, value + float(theta[0]), deviation, float(sigma[0])
-        share = seen.measure(each.columns @ theta)
-        yield ParameterChange(name, each.effect, each.joint, *ends, unit, share)
+    first = 0
+    for each in fit.hypotheses:
+        count, alone = each.columns.shape[2], len(each.parameters) == 1
+        theta, sigma = (x[first : first + count] for x in (fit.theta, fit.sigma))
+        first += count
+        for k, change in enumerate(each.parameters):
+            part = slice(None) if alone else slice(k, k + 1)
+            share = seen.measure(each.columns[:, :, part] @ theta[part])
+            after = change.before + float(theta[k])
+            yield replace(change, after=after, sigma_after=float(sigma[k]), share=share)

@@ -84,16 +84,10 @@ class Thresholds:
     """Standard deviations between two logs with one load."""
     max_compared_samples: int = 20000
     """Samples of a set of logs that are compared with another set; no study."""
-    change_blocks: int = 5
-    """Blocks of time whose fits show how much a machine that stays differs from itself."""
-    change_reweightings: int = 8
-    """Fits in which joint weights converge."""
-    change_tolerance: float = 1e-10
-    """Eigenvalue of normal equations with unit diagonal below which nothing is determined."""
     min_block_eigenvalue: float = 1e-6
     """Eigenvalue, over the largest, of a block below which its rows show nothing; no study."""
-    load_tolerance: float = 1e-8
-    """Share of a column's length that is rounding."""
+    change_tolerance: float = 1e-10
+    """Eigenvalue of normal equations with unit diagonal below which nothing is determined."""
     max_chance_misfit: float = 2.0
     """Misfit per parameter up to which two sets are of one machine; tests/changed_machines: at most
     1.9 of 40 machines that stayed, 0.3 to 1.6 where the change is named."""

@@ -86,15 +86,11 @@ def sum_blocks(rows: Observation, block: np.ndarray, prior: np.ndarray) -> Block
     W = [rows.columns[part, j] for j, part in enumerate(used.T)]
     y = [rows.torque[part, j] for j, part in enumerate(used.T)]
     blocks = [block[part] for part in used.T]
-    return sum_joint_rows(W, y, blocks, THRESHOLDS.time_blocks, prior)
+    return sum_joint_rows(W, y, blocks, prior)
 
 
 def sum_joint_rows(
-    W: Sequence[np.ndarray],
-    y: Sequence[np.ndarray],
-    block: Sequence[np.ndarray],
-    blocks: int,
-    prior: np.ndarray,
+    W: Sequence[np.ndarray], y: Sequence[np.ndarray], block: Sequence[np.ndarray], prior: np.ndarray
 ) -> BlockSums:
     """Returns the normal equations of rows W_j (rows_j, c), y_j and their blocks of each joint.
 
@@ -102,10 +98,9 @@ def sum_joint_rows(
         W: rows of each joint.
         y: their torques.
         block: from 0 on, of each row.
-        blocks: how many there are.
         prior: (c,) of `compute_prior_weights`.
     """
-    every = [[part == b for b in range(blocks)] for part in block]
+    every = [[part == b for b in range(THRESHOLDS.time_blocks)] for part in block]
     rows = list(zip(W, y, every, strict=True))
     gram = [[w[some].T @ w[some] for some in of] for w, _, of in rows]
     cross = [[w[some].T @ t[some] for some in of] for w, t, of in rows]

@@ -12,7 +12,6 @@ from modeler.core.result import Result
 from modeler.core.table import Column, align_columns, format_percent, format_rows
 from modeler.effects import CATALOGUE, find_effect
 from modeler.validation.fleet_drift import (
-    PeriodChange,
     QuantityTests,
     Unit,
     arrange_by_time,
@@ -190,7 +189,7 @@ class Fleet(Result, Document):
         unit: of times: "days" or "periods".
         machines: names and their periods, in order.
         findings: the surest first.
-        changes: what of each machine that drifts changed, by name and size.
+        changes: what of each machine that drifts changed, by name and size, a sentence each.
         histories: all that was looked at, and a load if one could be identified.
         false_alarm: chance that a fleet in which nothing drifts has any finding, at most.
         unresolved: common parameters that the logs cannot identify.
@@ -208,7 +207,7 @@ class Fleet(Result, Document):
     unit: Unit
     machines: Mapping[str, tuple[str, ...]]
     findings: tuple[FleetFinding, ...]
-    changes: tuple[PeriodChange, ...]
+    changes: tuple[str, ...]
     histories: tuple[QuantityHistory, ...]
     false_alarm: float
     unresolved: tuple[str, ...]
@@ -312,7 +311,7 @@ def format_fleet(fleet: Fleet) -> list[str]:
     figure, what = format_headline(fleet)
     lines = [f"{fleet.robot}: {figure} {what}"]
     lines += [f"  {describe_finding(one, fleet.unit)}" for one in fleet.findings]
-    lines += [f"  {line}" for change in fleet.changes for line in change.sentences]
+    lines += [f"  {line}" for line in fleet.changes]
     lines += ["", *align_columns(format_rows(QUANTITY_COLUMNS, fleet.histories), (0, 1)), ""]
     lines.append(
         "detectable: the smallest straight drift over all periods that is a finding; chance of any "

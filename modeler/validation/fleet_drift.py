@@ -10,7 +10,6 @@ from typing import Literal
 import numpy as np
 from scipy.special import digamma, ndtri, polygamma, stdtr, stdtrit
 
-from modeler.core.json import Document, ShortRepr
 from modeler.core.manifest import ModuleSpec
 from modeler.estimation import MachineComparison, compare_machines, fit_machine, merge_sums
 from modeler.validation.fleet_logs import (
@@ -562,50 +561,27 @@ def _compute_gain_scales(tests: QuantityTests) -> dict[tuple[int, int], np.ndarr
 # What changed, by the rule of `diagnose` and `compare`.
 
 
-@dataclass(frozen=True, eq=False)
-class PeriodChange(ShortRepr, Document):
-    """What differs between some periods of a machine, by the rule of `diagnose` and `compare`.
-
-    Attributes:
-        machine: name.
-        before, after: periods, or "the other machines".
-        comparison: of the two.
-    """
-
-    KEYS = "machine before after changes=comparison.changes sentences"
-
-    machine: str
-    before: str
-    after: str
-    comparison: MachineComparison
-
-    @property
-    def sentences(self) -> list[str]:
-        """Returns a sentence for each place that changed."""
-        lines = self.comparison.describe(f"{self.before} and {self.after}")
-        return [f"machine {self.machine}: {line}" for line in lines]
-
-
 def name_changes(
     spec: ModuleSpec, tests: QuantityTests, logs: Sequence[LogSummary]
-) -> tuple[PeriodChange, ...]:
+) -> tuple[str, ...]:
     """Names what changed where a finding begins, and between the periods of a machine with two."""
-    changes: dict[tuple[str, str, str], PeriodChange] = {}
     splits = [(m, *split_logs(tests, m, i)) for m, i in (*tests.drifts, *tests.outliers)]
     for m in range(tests.machine_count):
         every = np.flatnonzero(tests.machine == m)
         if len(every) == 2:
             splits.append((m, every[:1], every[1:]))
+    lines = list[str]()
     for m, before, after in splits:
-        ends = []
-        for some in (before, after):
-            names = [logs[k].log_name.period for k in some]
-            others = tests.machine[some[0]] != m
-            ends.append("the other machines" if others else _format_span(names))
-        key = logs[after[0]].log_name.machine, ends[0], ends[1]
-        if key not in changes:
-            changes[key] = PeriodChange(*key, compare_periods(spec, logs, before, after))
-    return tuple(each for each in changes.values() if each.comparison.changes)
+        comparison = compare_periods(spec, logs, before, after)
+        if comparison.changes:
+            first, last = (
+                _format_span([logs[k].log_name.period for k in some]) for some in (before, after)
+            )
+            first = "the other machines" if tests.machine[before[0]] != m else first
+            machine = logs[after[0]].log_name.machine
+            changed = comparison.describe(f"{first} and {last}")
+            lines += [f"machine {machine}: {line}" for line in changed]
+    return tuple(dict.fromkeys(lines))
 
 
 def _format_span(names: Sequence[str]) -> str:
