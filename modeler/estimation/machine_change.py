@@ -216,7 +216,8 @@ class _FreeFit:
             left = np.maximum(_sum_squares(squares, cross, gram, columns), 1e-12 * squares)
         self.sigma = np.sqrt(left / np.maximum(count, 1))
         excess = np.array([_compute_excess(sums, j, columns[j]) for j in range(len(gram))])
-        self.weights = np.where(driven, 1.0 / np.maximum(excess, self.sigma**2), 0.0)
+        variance = np.maximum(np.maximum(excess, self.sigma**2), 1e-300)
+        self.weights = np.where(driven, 1.0 / variance, 0.0)
         self.normal = np.diag(prior) + np.tensordot(self.weights, products, 1)
         self.misfit = float(self.weights @ left)
 
