@@ -305,6 +305,14 @@ def _build_wave_columns(state: State, j: int) -> np.ndarray:
     return state.rows.filter_samples(j, [np.hstack([np.cos(x), np.sin(x)]) for x in angles])
 
 
+def _compute_shortest_travels(state: State) -> np.ndarray:
+    """(J,) that samples show: from rest, at the rms acceleration of the joint, over a few."""
+    times = [s.step * np.ones(len(s.a)) for s in state.rows.signals]
+    span = THRESHOLDS.min_turn_samples * np.concatenate(times)[:, None]
+    travels = 0.5 * np.abs(np.concatenate([s.a for s in state.rows.signals])) * span**2
+    return np.asarray(np.sqrt(np.mean(travels**2, axis=0)))
+
+
 def generate_candidates(
     state: State,
     only: str | None = None,
@@ -337,6 +345,8 @@ def generate_candidates(
     ringing = {id(c): c.nonlinear_parameters["f"] for c in results if c.effect.is_oscillator}
     results = [c for c in results if ringing.get(id(c), lowest) >= slowest]
     results = [c for c in results if id(c) not in ringing or (is_tree and c.joint not in windups)]
+    shortest = _compute_shortest_travels(state)
+    results = [c for c in results if not c.loop or c.loop[0] >= shortest[c.index]]
     if waving := {effect.id for effect in known.catalogue if effect.orders}:
         waves = None if keys is None else {joint for effect, joint in keys if effect in waving}
         results += list_ripple_candidates(state, is_allowed, waves)

@@ -139,6 +139,8 @@ class Thresholds:
     """s between windows of one push. No study."""
     settling_time: float = 2.0
     """s of a log in which inner states of friction and cables are unknown. No study."""
+    min_turn_samples: int = 4
+    """In which a joint at its rms acceleration passes the travel of a bristle. No study."""
     burst_duration: float = 0.1
     """s after a sign change of the load. No study."""
     min_burst_ratio: float = 11.0
