@@ -129,9 +129,11 @@ def find_contact_window(left: Residuals) -> PushWindow | None:
     if ratio < THRESHOLDS.min_push_ratio or near.all():
         return None
     adjoining = same & (windows.energy > THRESHOLDS.min_adjoining_ratio * elsewhere)
-    start, end = _extend_window(windows, adjoining, start, end)
-    began = float(windows.start[same].min())
     longest = _LENGTHS[-1] * THRESHOLDS.push_cell
+    whole = _extend_window(windows, adjoining, start, end)
+    if whole[1] - whole[0] < longest:  # else the fit that it spoils leaves much around it
+        start, end = whole
+    began = float(windows.start[same].min())
     if start - began < THRESHOLDS.settling_time or end - start >= longest:
         return None
     return PushWindow(run, start, end, ratio)
