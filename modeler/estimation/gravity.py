@@ -9,6 +9,7 @@ direction. Where positions close loops, a factor of the stated gravity is all th
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.sparse import block_diag, csr_array
@@ -43,20 +44,39 @@ class ThinnedRows:
     samples: tuple[tuple[regression.Segment, np.ndarray], ...]
     read: np.ndarray | None
 
-    @property
+    @cached_property
     def motion(self) -> np.ndarray:
         """Returns the motion q, qd, qdd of the samples, (3, samples, n)."""
         every = [np.stack([s.q[k], s.qd[k], s.qdd[k]]) for s, k in self.samples]
         return np.concatenate(every, axis=1)
 
-    def filter_values(self, values: np.ndarray) -> np.ndarray:
-        """Returns (m, n, k) rows of what the samples have, (samples, n, k)."""
-        return self._average_rows(values)
+    def filter_values(
+        self, evaluate: Callable[[slice], np.ndarray], spans: Sequence[slice] | None = None
+    ) -> np.ndarray:
+        """Returns (m, n, k) rows of what the samples have.
 
-    def _average_rows(self, values: np.ndarray, spans: Sequence[slice] | None = None) -> np.ndarray:
-        weights = self.weights.data, self.weights.indices, self.weights.indptr
-        every, none = np.ones(self.used.shape, dtype=bool), np.zeros(len(values), dtype=bool)
-        return average_rows(weights, values, self.usable, every, none, spans)
+        Args:
+            evaluate: (samples of a window, n, k).
+            spans: of each joint, the columns that are not 0; None: all.
+        """
+        rows = []
+        for window, weights in self._blocks:
+            usable, values = self.usable[window], evaluate(window)
+            every = np.ones((len(weights[2]) - 1, usable.shape[1]), dtype=bool)
+            none = np.zeros(len(values), dtype=bool)
+            rows.append(average_rows(weights, values, usable, every, none, spans))
+        return np.concatenate(rows)
+
+    @cached_property
+    def _blocks(self) -> list[tuple[slice, tuple[np.ndarray, np.ndarray, np.ndarray]]]:
+        """Windows of samples, and the weights of the rows that reach into them."""
+        blocks, count = [], THRESHOLDS.thinned_block_rows
+        for first in range(0, len(self.used), count):
+            part = self.weights[first : first + count]
+            start, stop = (int(part.indices.min()), int(part.indices.max())) if part.nnz else (0, 0)
+            weights = part.data, part.indices - start, part.indptr
+            blocks.append((slice(start, stop + 1), weights))
+        return blocks
 
     def transform_columns(
         self, compiled: CompiledModel, how: "MotionTransform", beta: np.ndarray | None = None
@@ -76,15 +96,17 @@ class ThinnedRows:
 
         With parameters beta (c,) their torques, (m, n).
         """
-        motions = []
+        motion, first = self.motion.copy(), 0
         for s, k in self.samples:
-            place = (s.time[k, None] + shift - s.time[0]) / s.step
-            below = np.clip(place.astype(int), 0, s.samples - 2)
-            above, joint = np.clip(place - below, 0.0, 1.0), np.arange(len(shift))
-            a, b = (below, joint), (below + 1, joint)
-            motion = [x[a] * (1.0 - above) + x[b] * above for x in (s.q, s.qd, s.qdd)]
-            motions.append(np.stack(motion))
-        return self._evaluate_columns(compiled, np.concatenate(motions, axis=1), beta)
+            part = motion[:, first : first + len(k)]
+            first += len(k)
+            for j in np.flatnonzero(shift):
+                place = (s.time[k] + shift[j] - s.time[0]) / s.step
+                below = np.clip(place.astype(int), 0, s.samples - 2)
+                above = np.clip(place - below, 0.0, 1.0)
+                for moved, x in zip(part, (s.q, s.qd, s.qdd), strict=True):
+                    moved[:, j] = x[below, j] * (1.0 - above) + x[below + 1, j] * above
+        return self._evaluate_columns(compiled, motion, beta)
 
     def _evaluate_columns(
         self, compiled: CompiledModel, motion: Iterable[np.ndarray], beta: np.ndarray | None
@@ -94,11 +116,14 @@ class ThinnedRows:
         nearest = regression.find_nearest_closed(compiled, q)  # a changed one may leave the loops
         if nearest is not None:
             q = np.ascontiguousarray(q[nearest])
-        if beta is None:
-            values = compiled.base_regressor(q, qd, qdd, self.read)
-        else:
-            values = compiled.inverse_dynamics(q, qd, qdd, beta, self.read)
-        return self._average_rows(values, compiled.pattern.spans if values.ndim == 3 else None)
+
+        def evaluate(w: slice) -> np.ndarray:
+            read = None if self.read is None else self.read[w]
+            if beta is None:
+                return compiled.base_regressor(q[w], qd[w], qdd[w], read)
+            return compiled.inverse_dynamics(q[w], qd[w], qdd[w], beta, read)
+
+        return self.filter_values(evaluate, compiled.pattern.spans if beta is None else None)
 
 
 def thin_rows(compiled: CompiledModel, observation: regression.Observation) -> ThinnedRows:
@@ -331,16 +356,10 @@ def extract_gravity(compiled: CompiledModel, rows: ThinnedRows, free: bool) -> G
         rows: of logs.
         free: True if parameters are to be fitted; else a factor of gravity alone is requested.
     """
-    q, qd, qdd = rows.motion
-    whole = compiled.base_regressor(q, qd, qdd, rows.read)
-    at_rest = compiled.base_regressor(q, 0.0 * q, 0.0 * q, rows.read)
-    at_rest *= np.array([base.kind == "inertial" for base in compiled.spec.base])
-    moving, least = whole - at_rest, THRESHOLDS.rounding_share
-    moving *= np.abs(moving).max(axis=(0, 1)) > least * np.abs(whole).max(axis=(0, 1))
-    motion, still = rows.filter_values(moving), rows.filter_values(at_rest)
+    motion, still = _split_gravity(compiled, rows)
     machine, count = define_physical_parameters(compiled.spec), THRESHOLDS.max_gravity_columns
     if free and compiled.spec.closure is None and len(machine.names) <= count:
-        per_axis = _evaluate_axes(compiled, rows, machine, q)
+        per_axis = _evaluate_axes(compiled, rows, machine, rows.motion[0])
         if per_axis is not None:
             weight, flat = (still @ machine.K).ravel(), per_axis.reshape(3, -1)
             stated = np.linalg.lstsq(flat @ flat.T, flat @ weight, rcond=1e-9)[0]
@@ -351,21 +370,44 @@ def extract_gravity(compiled: CompiledModel, rows: ThinnedRows, free: bool) -> G
     return GravityModel(machine, motion, still[None], np.ones(1)) if still.any() else None
 
 
+def _split_gravity(compiled: CompiledModel, rows: ThinnedRows) -> tuple[np.ndarray, np.ndarray]:
+    """Returns columns (m, n, c) of the motion, without what is rounding, and of gravity."""
+    q, qd, qdd = rows.motion
+    is_inertial = np.array([base.kind == "inertial" for base in compiled.spec.base])
+    largest = np.zeros((2, len(is_inertial)))
+
+    def evaluate(w: slice) -> np.ndarray:
+        read, none = None if rows.read is None else rows.read[w], np.zeros_like(q[w])
+        whole = compiled.base_regressor(q[w], qd[w], qdd[w], read)
+        at_rest = compiled.base_regressor(q[w], none, none, read) * is_inertial
+        both = np.stack([whole - at_rest, whole], axis=2)
+        np.maximum(largest, np.abs(both).max(axis=(0, 1)), out=largest)
+        both[:, :, 1] = at_rest
+        return both
+
+    both = rows.filter_values(evaluate)
+    moves = largest[0] > THRESHOLDS.rounding_share * largest[1]
+    return both[:, :, 0] * moves, both[:, :, 1]
+
+
 def _evaluate_axes(
     compiled: CompiledModel, rows: ThinnedRows, machine: PhysicalParameters, q: np.ndarray
 ) -> np.ndarray | None:
     """Returns (3, m, n, p) of 1 m/s^2 along each axis of frame 0; None without named frames."""
-    difference = THRESHOLDS.gravity_step
-    slopes = [
-        compiled.forward_kinematics(q + step) - compiled.forward_kinematics(q - step)
-        for step in difference * np.eye(q.shape[1])
-    ]
-    if slopes[0].shape[1] != len(machine.links):
+    difference, shape = THRESHOLDS.gravity_step, (q.shape[1], len(machine.links), 3, 4)
+    if compiled.forward_kinematics(q[:1]).shape[1] != len(machine.links):
         return None
-    every = -np.stack(slopes, axis=1) / (2.0 * difference)  # (samples, n, links, 3, 4)
-    every[np.abs(every) < THRESHOLDS.rounding_share] = 0.0
-    weight = rows.filter_values(every.reshape(*every.shape[:2], -1))
-    weight = weight.reshape(*weight.shape[:2], *every.shape[2:])
+
+    def evaluate(w: slice) -> np.ndarray:
+        slopes = np.empty((len(q[w]), *shape))
+        for j, step in enumerate(difference * np.eye(q.shape[1])):
+            slopes[:, j] = compiled.forward_kinematics(q[w] - step)
+            slopes[:, j] -= compiled.forward_kinematics(q[w] + step)
+        slopes /= 2.0 * difference
+        slopes[np.abs(slopes) < THRESHOLDS.rounding_share] = 0.0
+        return slopes.reshape(*slopes.shape[:2], -1)
+
+    weight = rows.filter_values(evaluate).reshape(-1, *shape)
     per_axis = np.zeros((3, *weight.shape[:2], len(machine.names)))
     for link, places in enumerate(machine.links.values()):
         per_axis[..., places[6:]] = np.moveaxis(weight[:, :, link], 2, 0)  # MX, MY, MZ, M

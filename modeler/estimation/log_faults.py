@@ -192,6 +192,25 @@ class Evidence:
         """Returns `predict_blocks` of the log as it is."""
         return self.predict_blocks(self.rows.W)
 
+    def shift_torques(
+        self, seconds: float, share: np.ndarray, beta: np.ndarray | None
+    ) -> np.ndarray:
+        """Returns columns of the motion of each joint that many seconds times share (n,) later.
+
+        With parameters beta (c,) their torques; those of all joints alike are asked for repeatedly.
+        """
+        if beta is None or not np.all(share == 1.0):
+            return self.rows.shift_columns(self.compiled, seconds * share, beta)
+        key = seconds, beta.tobytes()
+        if key not in self._shifted_torques:
+            later = self.rows.shift_columns(self.compiled, seconds * share, beta)
+            self._shifted_torques[key] = later
+        return self._shifted_torques[key]
+
+    @cached_property
+    def _shifted_torques(self) -> dict[tuple[float, bytes], np.ndarray]:
+        return {}
+
     @property
     def is_tree(self) -> bool:
         """Returns True without loops: positions that do not close loops have no torque."""
@@ -300,7 +319,7 @@ def _select_hypothesis(seen: Evidence) -> Hypothesis | None:
 def _compute_inertia_reduction(seen: Evidence) -> float:
     """Returns the fall of the sum of logarithms by inertias of motors that a model lacks."""
     inertia = seen.rows.motion[2][:, :, None] * np.eye(len(seen.observation.joints))
-    columns = np.concatenate([seen.rows.W, seen.rows.filter_values(inertia)], axis=2)
+    columns = np.concatenate([seen.rows.W, seen.rows.filter_values(inertia.__getitem__)], axis=2)
     errors = seen.judge.compute_errors(seen.build_equations(columns), possible=False)
     return _compute_log_error(seen.free_errors) - _compute_log_error(errors)
 
@@ -519,7 +538,7 @@ class _Channel:
         for vector in np.unique(self.shifts, axis=0):
             if vector.any():
                 alike = (self.shifts == vector).all(axis=1)
-                moved = rows.shift_columns(self.seen.compiled, seconds * vector, beta)
+                moved = self.seen.shift_torques(seconds, vector, beta)
                 columns[:, alike] = moved[:, alike]
         return columns
 
@@ -536,8 +555,11 @@ def _propose_delays(seen: Evidence) -> Iterator[Hypothesis]:
     Gauss and Newton.
     """
     step = float(np.median([part.segment.step for part in seen.observation.stretches]))
-    channels, search = _collect_channels(seen), partial(_find_best_shift, seen)
-    shifts = map_parts(search, [channel.shift_columns for channel in channels])
+    first, *others = _collect_channels(seen)
+    channels, search = [first, *others], partial(_find_best_shift, seen)
+    # what all joints share is made by the first
+    shifts = [search(first.shift_columns)]
+    shifts += map_parts(search, [channel.shift_columns for channel in others])
     tried = []
     for channel, (shift, W) in zip(channels, shifts, strict=True):
         way, back = ("late", "early") if channel.sign * shift > 0.0 else ("early", "late")

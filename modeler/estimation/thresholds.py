@@ -353,6 +353,8 @@ class Thresholds:
     """Change of these at which a fit ends."""
     windup_rank_share: float = 1e-9
     """Singular value over the largest, of columns of length one, below which nothing is seen."""
+    thinned_block_rows: int = 32
+    """Thinned rows evaluated at a time: the columns of their samples stay in the cache."""
 
 
 THRESHOLDS = Thresholds()

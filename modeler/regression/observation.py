@@ -410,7 +410,8 @@ def iterate_blocks(observation: Observation) -> Iterator[tuple[slice, np.ndarray
 
 def evaluate_columns_at(observation: Observation, places: np.ndarray) -> np.ndarray:
     """Returns (m, n, c) filtered regressor of some samples (m,), ascending."""
-    if not is_streamed(observation):
+    compiled = isinstance(observation.regressor, ModelRegressor)
+    if not compiled or "columns" in vars(observation):
         return np.asarray(observation.columns[places])
     columns = []
     for part, part_rows in _iterate_stretches(observation):

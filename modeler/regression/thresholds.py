@@ -252,8 +252,8 @@ class Thresholds:
     """Of the changes of the speed over that time."""
     speed_change_ratio: float = 2.0
     """Of the change across a spike and those before."""
-    filter_block_samples: int = 20_000
-    """Samples evaluated at a time: 20 000 x 7 joints x 60 columns is 67 MB."""
+    filter_block_samples: int = 4096
+    """Samples evaluated at a time: 4096 x 7 joints x 60 columns is 14 MB."""
     max_window_logs: int = 64
     """Logs that are looked at; of more, every so many."""
     max_rate_ratio: float = 100.0
