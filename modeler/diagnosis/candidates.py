@@ -333,43 +333,60 @@ def evaluate_equations(
 ) -> np.ndarray:
     """Evaluates the equations of candidates of one form on one joint, (n, k), side by side.
 
-    Over a window of the samples.
+    Over a window of the samples, which are the last axis until all is evaluated.
     """
     first = candidates[0]
     j, names, memory = first.index, first.form.names, first.form.internal_state
-    values: dict[str, object] = {
-        name: np.array([candidate.nonlinear_parameters[name] for candidate in candidates])
-        for name in first.nonlinear_parameters
-    }
+    values, shape = _spread_parameters(candidates)
     span = window if memory is None else EVERY  # what has memory reads the segment from its start
     read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
-    values |= {name: getattr(signals, name)[span, j, None] for name in read}
-    others = first.form.other_joint_names
-    values |= {name: signals.select_other(name)[span, None] for name in others}
+    values |= {name: np.ascontiguousarray(getattr(signals, name)[span, j]) for name in read}
+    values |= {name: signals.select_other(name)[span] for name in first.form.other_joint_names}
     if "t" in names:
-        values["t"] = signals.time[span, None]
+        values["t"] = signals.time[span]
     if "since" in names:
         backs = [candidate.nonlinear_parameters.get(TURN, NOISE) for candidate in candidates]
         times = [signals.compute_reversal_time(j, back)[span] for back in backs]
-        values["since"] = np.column_stack(times)
+        values["since"] = np.reshape(times, (*shape, -1))
     if "T" in names and (warmth := signals.compute_temperature(first.joint or "")) is not None:
-        values["T"] = warmth[span, None]
+        values["T"] = warmth[span]
     with np.errstate(all="ignore"):  # columns that are not finite are not looked at
         if memory is not None:
             x = np.zeros(1)
             if memory.lagged_input is not None:
                 x = memory.lagged_input.fold(values, FUNCTIONS, np.pi, float)
-            followed = np.broadcast_to(x, (len(signals.q), len(candidates))).T
+            followed = np.broadcast_to(x, (*shape, len(signals.q))).reshape(len(candidates), -1)
             states = [
                 signals.compute_memory_state(memory, j, candidate.nonlinear_parameters, signal)
                 for candidate, signal in zip(candidates, followed, strict=True)
             ]
-            values["z"] = np.column_stack(states)
-        columns = np.empty((len(signals.q[span]), len(candidates), len(first.form.columns)))
+            values["z"] = np.reshape(states, (*shape, -1))
+        count = len(signals.q[span])
+        columns = np.empty((count, len(candidates), len(first.form.columns)))
         for k, column in enumerate(first.form.columns):
-            columns[:, :, k] = column.equation.fold(values, FUNCTIONS, np.pi, float)
+            every = column.equation.fold(values, FUNCTIONS, np.pi, float)
+            columns[:, :, k] = np.broadcast_to(every, (*shape, count)).reshape(-1, count).T
     columns = columns if memory is None else columns[window]
     return columns.reshape(len(columns), -1)
+
+
+def _spread_parameters(
+    candidates: Sequence[Candidate],
+) -> tuple[dict[str, object], tuple[int, ...]]:
+    """Parameters of candidates before an axis of samples, and the shape of all the others.
+
+    Of a whole grid each has an axis of its own: a function of one of them is evaluated once for all
+    values of the others.
+    """
+    names = list(candidates[0].nonlinear_parameters)
+    listed = [np.array([c.nonlinear_parameters[name] for c in candidates]) for name in names]
+    axes = [np.array(list(dict.fromkeys(values.tolist()))) for values in listed]
+    grid = np.meshgrid(*axes, indexing="ij") if axes else [np.zeros(len(candidates))]
+    if grid[0].size != len(candidates) or not all(map(np.array_equal, map(np.ravel, grid), listed)):
+        return {n: x[:, None] for n, x in zip(names, listed, strict=True)}, (len(candidates),)
+    shape, count = grid[0].shape, len(names)
+    spread = [x.reshape(-1, *[1] * (count - i)) for i, x in enumerate(axes)]
+    return dict(zip(names, spread, strict=True)), shape
 
 
 def evaluate_columns(candidate: Candidate, signals: Signals, window: slice = EVERY) -> np.ndarray:

@@ -16,6 +16,9 @@ LEAST = 100
 """Rows below which nothing is predicted."""
 
 
+FunctionSet = np.ndarray | Sequence[np.ndarray]
+"""Values (n, p) of p functions, or parts of them that stand beside each other."""
+
 _RIDGES = (0.1, 2.0)  # times the number of columns: noise over signal, variances
 
 
@@ -42,7 +45,7 @@ class NonparametricBaseline:
 
 
 def fit_nonparametric_baseline(
-    sets: Iterable[tuple[str, np.ndarray]], residual: np.ndarray, fold: np.ndarray
+    sets: Iterable[tuple[str, FunctionSet]], residual: np.ndarray, fold: np.ndarray
 ) -> NonparametricBaseline:
     """Predicts the residual by sets of functions on folds that they were not fitted to.
 
@@ -53,7 +56,7 @@ def fit_nonparametric_baseline(
     share near 0.
 
     Args:
-        sets: names and (n, p) values of functions; one at a time is in memory.
+        sets: names and values of functions; one at a time is in memory.
         residual: (n,), in order of time.
         fold: (n,) whole numbers; a fold is made of segments much longer than noise lasts.
     """
@@ -134,16 +137,21 @@ def _solve_ridge(gram: np.ndarray, ridge: float, side: np.ndarray) -> np.ndarray
     return np.asarray(x)
 
 
-def _standardise_columns(values: np.ndarray) -> np.ndarray:
+def _standardise_columns(values: FunctionSet) -> np.ndarray:
     """Mean 0 and standard deviation 1, in single precision; without what is constant."""
-    if not len(values):
-        return values[:, :0]
-    centred = values - values.mean(axis=0)
-    size = np.sqrt(np.einsum("ij,ij->j", centred, centred) / len(centred))
-    seen = size > 1e-9
-    if not seen.all():
-        centred, size = centred[:, seen], size[seen]
-    return np.divide(centred, size, out=np.empty(centred.shape, np.float32), casting="same_kind")
+    parts = [values] if isinstance(values, np.ndarray) else values
+    standard = np.empty((len(parts[0]), sum(part.shape[1] for part in parts)), np.float32)
+    count, weights = 0, np.full(len(standard), 1.0 / max(1, len(standard)))
+    for part in parts if len(standard) else ():
+        centred = part - weights @ part
+        size = np.sqrt(np.einsum("ij,ij->j", centred, centred) / len(centred))
+        seen = size > 1e-9
+        if not seen.all():
+            centred, size = centred[:, seen], size[seen]
+        out = standard[:, count : count + len(size)]
+        np.divide(centred, size, out=out, casting="same_kind")
+        count += len(size)
+    return standard[:, :count]
 
 
 # Splines of one coordinate, and of two: what laws that are learned are made of.
@@ -262,7 +270,7 @@ class Measurements:
     extra_sets: dict[str, np.ndarray]
 
 
-def generate_function_sets(measured: Measurements) -> Iterator[tuple[str, np.ndarray]]:
+def generate_function_sets(measured: Measurements) -> Iterator[tuple[str, FunctionSet]]:
     """Yields sets of functions by name: "own", "surface" of the joint, "0", ... of others, "wide".
 
     Curves are sums of hats over one coordinate, with and without the direction of the joint:
@@ -278,35 +286,35 @@ def generate_function_sets(measured: Measurements) -> Iterator[tuple[str, np.nda
         _draw_fourier_features(joint_motion, _OWN, generator),
         _draw_fourier_features(joint_motion[:, :2], _BENT, generator) * way,
     )
-    yield "surface", np.column_stack(bent)
+    yield "surface", bent
     for k in range(m.q.shape[1]):
         if k != j:
             yield str(k), _build_other_joint_functions(m, k, way, generator)
     near = np.column_stack([m.q, m.v])
-    yield "sum", np.hstack([build_hat_functions(x, THRESHOLDS.sum_knots) for x in (*m.q.T, *m.v.T)])
+    yield "sum", [build_hat_functions(x, THRESHOLDS.sum_knots) for x in (*m.q.T, *m.v.T)]
     features = _draw_fourier_features(near, _WIDE, generator)
-    yield "wide", np.column_stack([near, m.a, m.load, m.torque, features])
+    yield "wide", (near, m.a, m.load, m.torque, features)
     yield "pairs", _draw_fourier_features(near, _PAIRS, generator, few=2)
     yield from m.extra_sets.items()
 
 
-def _build_joint_functions(m: Measurements, way: np.ndarray) -> np.ndarray:
+def _build_joint_functions(m: Measurements, way: np.ndarray) -> FunctionSet:
     parts = [m.bristle_states, way]
     for name, knots in _KNOTS.items():
         hats = build_hat_functions(getattr(m, name)[:, m.joint], knots)
         parts += [hats] if name == "v" else [hats, hats * way]
-    return np.hstack(parts)
+    return parts
 
 
 def _build_other_joint_functions(
     m: Measurements, k: int, way: np.ndarray, generator: np.random.Generator
-) -> np.ndarray:
+) -> FunctionSet:
     curves = [build_hat_functions(getattr(m, name)[:, k], knots) for name, knots in _OTHER.items()]
     plain = np.column_stack([x[:, k] for x in (m.v, m.a, m.load, m.torque)])
     both = np.column_stack([m.q[:, k], m.v[:, k]])
     features = _draw_fourier_features(both, _PAIR, generator)
     turned = [curves[0][:, ::2] * way, plain, np.abs(plain) * way, np.sign(m.v[:, [k]])]
-    return np.hstack([*curves, *turned, features])
+    return [*curves, *turned, features]
 
 
 def _draw_fourier_features(
@@ -327,6 +335,8 @@ def _draw_fourier_features(
         order = np.argsort(generator.uniform(size=turn.shape), axis=0)
         turn = np.where(order < few, turn, 0.0)
     width = generator.uniform(0.5, 3.0, count) / np.sqrt(few or x.shape[1])
-    phase = scaled @ (turn * width)
-    phase += generator.uniform(0.0, 2.0 * np.pi, count)
+    turns = scaled @ (turn * width / (2.0 * np.pi))
+    turns += generator.uniform(0.0, 1.0, count)
+    turns -= np.rint(turns)
+    phase = (2.0 * np.pi) * turns.astype(np.float32)  # ten times as fast
     return np.cos(phase, out=phase)
