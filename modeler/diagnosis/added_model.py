@@ -26,7 +26,7 @@ from modeler.estimation import (
     build_prior,
     format_spread,
 )
-from modeler.numerics.least_squares import compute_column_norms
+from modeler.numerics.least_squares import compute_column_norms, compute_joint_whitening
 from modeler.robot import (
     insert_coupling,
     insert_effect,
@@ -457,18 +457,21 @@ def cross_validate_residuals(
         observation: of its logs.
         free: (c, k) the directions of beta that are fitted, beside the model; None: all of it.
     """
-    used, blocks, known = observation.used.T, build_time_blocks(observation), None
+    used, blocks = observation.used.T, build_time_blocks(observation)
     W = [observation.columns[used_rows, j] for j, used_rows in enumerate(used)]
     y = [observation.torque[used_rows, j] for j, used_rows in enumerate(used)]
     sigma = np.array([joint.sigma if joint.sigma > 0.0 else 1.0 for joint in model.fit.joints])
     if free is not None:
         y = [tau - w @ model.beta for w, tau in zip(W, y, strict=True)]
         W = [w @ free for w in W]
-    elif (prior := build_prior(model.spec)) is not None:
+    known = np.zeros((0, W[0].shape[1] + 1))
+    if free is None and (prior := build_prior(model.spec)) is not None:
         weighted = np.concatenate([w / s for w, s in zip(W, sigma, strict=True)])
         known = prior.extend_rows(np.linalg.norm(weighted, axis=0))
     number = [blocks.number[used_rows] for used_rows in used]
-    base = build_gram_blocks(W, y, sigma, number, blocks.fold, prior=known)
+    whitener = compute_joint_whitening([*W, known[:, :-1]], np.append(sigma, 1.0))
+    weights = sigma, number, blocks.fold, whitener, known
+    base = build_gram_blocks(lambda values: [w @ values for w in W], y, *weights)
     parts = [s * e for s, e in zip(sigma, base.out_of_fold, strict=True)]
     return _build_residuals(observation, parts)
 

@@ -93,8 +93,8 @@ def estimate_instrumental(state: State, candidate: Candidate) -> tuple[np.ndarra
     raw_columns, other = state.rows.build_columns(candidate), smooth.build_columns(candidate)
     extra = (*collect_pick_columns(smooth, state.picks), other)
     X, Z = [], []
-    for j, sigma in enumerate(state.sigma):
-        W, base = state.W[j], cache["smooth columns"][j][:, state.data.free_columns]
+    for j, (W, sigma) in enumerate(zip(state.W, state.sigma, strict=True)):
+        base = cache["smooth columns"][j][:, state.data.free_columns]
         X.append(np.hstack([W, to_dense(raw_columns, j, len(W))]) / sigma)
         Z.append(np.hstack([base, *(to_dense(columns, j, len(W)) for columns in extra)]) / sigma)
     return _solve_instrumental(state, X, Z, count_columns(raw_columns))

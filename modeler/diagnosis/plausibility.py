@@ -290,7 +290,13 @@ def _build_weighted_rows(state: State) -> list[np.ndarray]:
 @lru_cache(maxsize=1)
 def _compute_grams(state: State) -> np.ndarray:
     """(J, z + 1, z + 1) products of the columns of `_build_weighted_rows`."""
-    return np.stack([joint_rows.T @ joint_rows for joint_rows in _build_weighted_rows(state)])
+    weighted_rows = _build_weighted_rows(state) if state.data.fixed_parameters is not None else []
+    if not weighted_rows:  # the same products by few rows
+        left_out = [is_gain(pick) for pick in state.picks]
+        is_left_out = np.repeat([False, *left_out], [len(state.beta), *map(len, state.values)])
+        reduced = zip(state.reduced_rows.W, state.reduced_rows.y, state.sigma, strict=True)
+        weighted_rows = [np.column_stack([w[:, ~is_left_out], y]) / s for w, y, s in reduced]
+    return np.stack([joint_rows.T @ joint_rows for joint_rows in weighted_rows])
 
 
 def _build_problem(state: State, gains: Sequence[int]) -> _GainProblem:

@@ -508,7 +508,7 @@ def compute_effect_profile(state: State, place: int) -> Profile | None:
 def find_effect_columns(state: State, place: int) -> slice:
     """Returns the columns of an effect of the state."""
     sizes = [len(values) for values in state.values]
-    first = state.W[0].shape[1] - sum(sizes[place:])
+    first = state.column_count - sum(sizes[place:])
     return slice(first, first + sizes[place])
 
 

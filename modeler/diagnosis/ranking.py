@@ -3,7 +3,7 @@
 The rows are there as small matrices by block of time.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -15,9 +15,12 @@ import numpy as np
 from modeler.core.json import ShortRepr
 from modeler.diagnosis.candidates import Columns, count_columns
 from modeler.diagnosis.thresholds import THRESHOLDS
-from modeler.numerics.least_squares import ReducedRows, compute_joint_whitening, compute_whitening
+from modeler.numerics.least_squares import ReducedRows, compute_whitening
 from modeler.numerics.spectra import estimate_lap_period
 from modeler.regression import Observation
+
+Product = Callable[[np.ndarray], Sequence[np.ndarray]]
+"""W values, (rows_j, ...) by joint, new arrays, of values (c, ...)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,15 +84,15 @@ class GramBlocks(ShortRepr):
 
 
 class WhitenedColumns:
-    """The columns of a base: W (rows_j, c) by joint, turn (c, r), sigma (J,).
+    """The columns of a base: the product of W (rows_j, c) by joint, turn (c, r), sigma (J,).
 
     Many bases are there at a time: only the one that was asked last keeps its columns.
     """
 
     _last: ClassVar["WeakSet[WhitenedColumns]"] = WeakSet()
 
-    def __init__(self, W: Sequence[np.ndarray], turn: np.ndarray, sigma: np.ndarray) -> None:
-        self._source, self._columns = (W, turn, sigma), tuple[np.ndarray, ...]()
+    def __init__(self, multiply: Product, turn: np.ndarray, sigma: np.ndarray) -> None:
+        self._source, self._columns = (multiply, turn, sigma), tuple[np.ndarray, ...]()
 
     def compute_columns(self) -> tuple[np.ndarray, ...]:
         """Computes the columns, (rows_j, r) by joint."""
@@ -98,8 +101,10 @@ class WhitenedColumns:
                 other._columns = ()
             self._last.clear()
             self._last.add(self)
-            W, turn, sigma = self._source
-            self._columns = tuple(w @ (turn / s) for w, s in zip(W, sigma, strict=True))
+            multiply, turn, sigma = self._source
+            self._columns = tuple(multiply(turn))
+            for columns, s in zip(self._columns, sigma, strict=True):
+                columns /= s
         return self._columns
 
 
@@ -132,34 +137,31 @@ def solve_grams(G: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def build_gram_blocks(
-    W: Sequence[np.ndarray],
+    multiply: Product,
     y: Sequence[np.ndarray],
     sigma: np.ndarray,
     block: Sequence[np.ndarray],
     fold: np.ndarray,
-    whitener: np.ndarray | None = None,
-    prior: np.ndarray | None = None,
+    whitener: np.ndarray,
+    prior: np.ndarray,
 ) -> GramBlocks:
     """Builds the weighted base.
 
     Args:
-        W: (rows_j, c) by joint.
+        multiply: with W (rows_j, c) by joint.
         y: (rows_j,) by joint.
         sigma: (J,) of each joint.
         block: (rows_j,) by joint.
         fold: (blocks,) of each block.
-        whitener: (c, r) of the columns, where it is known.
-        prior: (k, c + 1) rows of what is known beforehand, of weight 1; None: nothing.
+        whitener: (c, r) of the columns.
+        prior: (k, c + 1) rows of what is known beforehand, of weight 1.
     """
-    prior = np.zeros((0, W[0].shape[1] + 1)) if prior is None else prior
-    if whitener is None:
-        whitener = compute_joint_whitening([*W, prior[:, :-1]], np.append(sigma, 1.0))
     target = tuple(t / s for t, s in zip(y, sigma, strict=True))
     r = whitener.shape[1]
     G, u = np.zeros((len(fold), r, r)), np.zeros((len(fold), r))
     known = np.column_stack([prior[:, :-1] @ whitener, prior[:, -1]])
     known = known[:, :-1].T @ known
-    source = WhitenedColumns(W, whitener, sigma)
+    source = WhitenedColumns(multiply, whitener, sigma)
     base = GramBlocks(source, target, whitener, sigma, tuple(block), fold, G, u, known)
     for w, t, slices in zip(base.whitened_columns, target, base.row_slices, strict=True):
         for b, rows in slices:

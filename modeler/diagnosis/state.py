@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -99,7 +99,10 @@ class SearchData(ShortRepr):
     @cached_property
     def reduction(self) -> least_squares.Reduction:
         """Returns the reduction of the fitted base columns, and y."""
-        return least_squares.reduce_rows([w[:, self.free_columns] for w in self.rows.W], self.y)
+        W = self.rows.W
+        if self.fixed_parameters is not None:
+            W = tuple(w[:, self.free_columns] for w in W)
+        return least_squares.reduce_rows(W, self.y)
 
     @cached_property
     def prior(self) -> Prior | None:
@@ -151,16 +154,23 @@ class State(ShortRepr):
         """Returns the names of the joints."""
         return [joint.name for joint in self.spec.joints]
 
-    @cached_property
+    @property
     def W(self) -> tuple[np.ndarray, ...]:
-        """Returns fitted base columns, then the picks', (rows_j, f + extra) by joint."""
-        if not self.extra and self.data.fixed_parameters is None:
-            return self.rows.W
+        """Returns fitted base columns, then the picks', (rows_j, f + extra) by joint; a copy."""
         free, blocks = self.data.free_columns, []
         for j, base in enumerate(self.rows.W):
             extra = (to_dense(columns, j, len(base)) for columns in self.extra)
             blocks.append(np.hstack([base[:, free], *extra]))
         return tuple(blocks)
+
+    def multiply_columns(self, values: np.ndarray) -> tuple[np.ndarray, ...]:
+        """Returns `W values`, (rows_j, ...) by joint, of values (f + extra, ...); without W."""
+        return _multiply_columns(self.rows.W, self.data.free_columns, self.extra, values)
+
+    @property
+    def column_count(self) -> int:
+        """Returns the number of columns, f + extra."""
+        return len(self.data.free_columns) + sum(map(count_columns, self.extra))
 
     @property
     def y(self) -> tuple[np.ndarray, ...]:
@@ -172,7 +182,9 @@ class State(ShortRepr):
         """Returns the Gram matrices of the model so far, by block."""
         numbers, fold = self.data.block_numbers, self.data.time_blocks.fold
         known = numbers, fold, self.whitener, self.prior
-        return ranking.build_gram_blocks(self.W, self.y, self.sigma, *known)
+        # of its parts: a state that its own columns refer to would not be let go of
+        multiply = partial(_multiply_columns, self.rows.W, self.data.free_columns, self.extra)
+        return ranking.build_gram_blocks(multiply, self.y, self.sigma, *known)
 
     @cached_property
     def fold_grams(self) -> ranking.GramBlocks:
@@ -208,10 +220,11 @@ class State(ShortRepr):
         lengths = np.sqrt(sum(np.sum((w / s) ** 2, axis=0) for w, s in every))
         rows, observation = known.extend_rows(lengths), self.data.observation
         solution, sums = self._solve_with_prior(rows), [1.0]
-        for j, (y, w) in enumerate(zip(self.y, self.W, strict=True)):
+        predicted = self.multiply_columns(solution)
+        for j, (y, torque) in enumerate(zip(self.y, predicted, strict=True)):
             if y.any():
                 used = np.flatnonzero(observation.used[:, j])
-                r = estimate_correlation(observation, y - w @ solution, used)
+                r = estimate_correlation(observation, y - torque, used)
                 sums.append(max(1.0, 2.0 * float(r.sum()) - 1.0))
         repeats = float(np.median(sums[1:] or sums))
         tight: dict[str, float] = {}
@@ -281,7 +294,8 @@ class State(ShortRepr):
     @cached_property
     def residual(self) -> tuple[np.ndarray, ...]:
         """Returns the residuals, (rows_j,) by joint, N m or N."""
-        return tuple(y - w @ self.solution for y, w in zip(self.y, self.W, strict=True))
+        predicted = self.multiply_columns(self.solution)
+        return tuple(y - torque for y, torque in zip(self.y, predicted, strict=True))
 
     @property
     def torque(self) -> np.ndarray:
@@ -308,6 +322,21 @@ class State(ShortRepr):
         """Ranks candidates by their columns."""
         base = self.gram_blocks
         return ranking.rank_candidates(base, ranking.build_batch(base, every))
+
+
+def _multiply_columns(
+    W: Sequence[np.ndarray], free: np.ndarray, extra: Sequence[Columns], values: np.ndarray
+) -> tuple[np.ndarray, ...]:
+    """Free columns of W, then others, times values."""
+    ends = np.cumsum([len(free), *map(count_columns, extra)])
+    base = np.zeros((W[0].shape[1], *values.shape[1:]))
+    base[free] = values[: ends[0]]
+    products = [w @ base for w in W]
+    for columns, (first, last) in zip(extra, pairwise(ends), strict=True):
+        for product, part in zip(products, columns, strict=True):
+            if part is not None:
+                product += part @ values[first:last]
+    return tuple(products)
 
 
 def build_state(data: SearchData, picks: Sequence[Candidate], beta: np.ndarray) -> State:
