@@ -339,7 +339,7 @@ def evaluate_equations(
     j, names, memory = first.index, first.form.names, first.form.internal_state
     values, shape = _spread_parameters(candidates)
     span = window if memory is None else EVERY  # what has memory reads the segment from its start
-    read = ("q", "v", "a", *(names & {"load", "static", "torque", "rate"}))
+    read = names & {"q", "v", "a", "load", "static", "torque", "rate"}
     values |= {name: np.ascontiguousarray(getattr(signals, name)[span, j]) for name in read}
     values |= {name: signals.select_other(name)[span] for name in first.form.other_joint_names}
     if "t" in names:
@@ -553,7 +553,8 @@ class Rows(ShortRepr):
         """Columns of one joint from its values (samples, k)."""
         columns: list[np.ndarray | None] = [None] * self.joint_count
         blocks = self._numbered_blocks
-        columns[j] = np.concatenate([b.filters[j] @ evaluate(i, b.window) for i, b in blocks])
+        parts = [(b.filters[j] @ evaluate(i, b.window)).T for i, b in blocks]
+        columns[j] = np.concatenate(parts, axis=1).T  # column after column, as batches read them
         return tuple(columns)
 
     def filter_joints(self, evaluate: Evaluate) -> Columns:
@@ -562,11 +563,11 @@ class Rows(ShortRepr):
         shown = np.zeros(self.joint_count, dtype=bool)
         for i, block in self._numbered_blocks:
             values = evaluate(i, block.window)
-            shown |= values.any(axis=(0, 2))
             for j, weights in enumerate(block.filters):
-                parts[j].append(weights @ values[:, j])
+                parts[j].append((weights @ values[:, j]).T)
+                shown[j] |= parts[j][-1].any()
         pairs = zip(parts, shown, strict=True)
-        return tuple(np.concatenate(part) if is_shown else None for part, is_shown in pairs)
+        return tuple(np.concatenate(part, axis=1).T if there else None for part, there in pairs)
 
     @property
     def _numbered_blocks(self) -> list[tuple[int, RowBlock]]:

@@ -255,17 +255,20 @@ def _add_joint(
     base: GramBlocks, pool: CandidateBatch, j: int, places: np.ndarray, columns: np.ndarray
 ) -> None:
     """Adds the rows of one joint, columns (k, rows_j), to the products of a pool."""
-    T, w, D, pairs = pool.T, pool.w, pool.D, pool.pairs
-    where = np.full(T.shape[2], -1)
-    where[places] = np.arange(len(places))
-    here = np.flatnonzero((where[pairs] >= 0).all(axis=1))
-    left, right = where[pairs[here, 0]], where[pairs[here, 1]]
+    T, w, D, owner = pool.T, pool.w, pool.D, pool.owner[places]
     products = np.zeros((len(T), T.shape[1], len(places)))
+    sizes, lag = pool.sizes[owner], places - pool.first[owner]  # of a candidate's columns
+    squares = pool.first_pairs[owner] + lag * (sizes + 1)
     for b, rows in base.row_slices[j]:
         part = columns[:, rows]
         products[b] += base.whitened_columns[j][rows].T @ part.T
         w[b, places] += part @ base.y[j][rows]
-        D[b, here] += np.einsum("ij,ij->i", part[left], part[right])
+        D[b, squares] += np.einsum("ij,ij->i", part, part)
+        for apart in range(1, sizes.max()):
+            here = np.flatnonzero(lag + apart < sizes)
+            cross = np.einsum("ij,ij->i", part[here], part[here + apart])
+            D[b, squares[here] + apart] += cross
+            D[b, squares[here] + apart * sizes[here]] += cross
     T[:, :, places] += products
 
 
