@@ -70,10 +70,10 @@ def fit_nonparametric_baseline(
     predictions = {name: _cross_predict(values, y, rows) for name, values in filled}
     if not predictions:
         return NonparametricBaseline(np.full(y.size, mean), 0.0)
-    separate = (_combine_predictions(columns, y, rows) for columns in predictions.values())
+    separate = (_combine_predictions([columns], y, rows) for columns in predictions.values())
     left = [float(np.sum((y - prediction) ** 2)) for prediction in separate]
     alone = {name: max(0.0, 1.0 - e / energy) for name, e in zip(predictions, left, strict=True)}
-    predicted = _combine_predictions(np.concatenate([*predictions.values()], axis=2), y, rows)
+    predicted = _combine_predictions([*predictions.values()], y, rows)
     gain = y**2 - (y - predicted) ** 2
     starts = np.arange(THRESHOLDS.share_parts) * y.size // THRESHOLDS.share_parts
     parts = np.add.reduceat(gain, starts)
@@ -103,20 +103,22 @@ def _cross_predict(X: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.n
         gram, side = G - grams[f] - (f != g) * grams[g], u - sides[f] - (f != g) * sides[g]
         for k, ridge in enumerate(_RIDGES):
             theta[f, g, k] = theta[g, f, k] = _solve_ridge(gram, ridge * X.shape[1], side)
-    predictions = np.zeros((len(rows), len(X), len(_RIDGES)))
+    predictions = np.zeros((len(rows), len(X), len(_RIDGES)), dtype=np.float32)
     for g, x in enumerate(fold_columns):
         fold_predictions = x @ theta[:, g].reshape(-1, X.shape[1]).T
         predictions[:, rows[g]] = fold_predictions.reshape(len(x), len(rows), -1).swapaxes(0, 1)
     return predictions
 
 
-def _combine_predictions(columns: np.ndarray, y: np.ndarray, rows: list[np.ndarray]) -> np.ndarray:
-    """(n,) sum of predictions (folds, n, c), the weights of a fold by what others say of others."""
+def _combine_predictions(
+    columns: Sequence[np.ndarray], y: np.ndarray, rows: list[np.ndarray]
+) -> np.ndarray:
+    """(n,) sum of predictions (folds, n, ...), weights of a fold by what others say of others."""
     from scipy.optimize import nnls  # it takes long to load, and a fit has no use for it
 
     predicted = np.zeros(y.size)
     for f, fold_rows in enumerate(rows):
-        fold_predictions = columns[f]
+        fold_predictions = np.concatenate([part[f] for part in columns], axis=1, dtype=float)
         part = fold_predictions[fold_rows]
         gram = fold_predictions.T @ fold_predictions - part.T @ part
         side = fold_predictions.T @ y - fold_predictions[fold_rows].T @ y[fold_rows]

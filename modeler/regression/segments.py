@@ -141,8 +141,8 @@ def compute_top_speeds(
         if noise is not None and not any(noise.joints[j].is_moving for j in turned):
             tops.append(0.0)
             continue
-        speeds = np.concatenate([np.abs(part.compute_speed(s.qd[s.whole])) for s in segments])
-        travel = np.concatenate([part.compute_speed(s.q[s.whole]) for s in segments])
+        speeds = np.concatenate([np.abs(part.compute_speed(s.qd)[s.whole]) for s in segments])
+        travel = np.concatenate([part.compute_speed(s.q)[s.whole] for s in segments])
         idle = not travel.size or np.ptp(travel) < least[part.unit]
         tops.append(0.0 if idle else float(np.quantile(speeds, THRESHOLDS.top_speed_quantile)))
     return tops
