@@ -18,6 +18,7 @@ from scipy.signal import lfilter
 from modeler.api import identify as identify_robot, load, observe, simulate as simulate_log
 from modeler.cli import main
 from modeler.estimation import find_log_faults, identify, judge_fit, log_faults
+from modeler.estimation.evidence import gather_evidence
 from modeler.regression.log import Log
 from modeler.robot.read import parse_robot_text
 from modeler.simulation import SimulationSettings, parse_hidden_effect, simulate
@@ -219,7 +220,7 @@ def test_faults_of_the_stated_sizes_raise_the_error_by_a_third():
     observation = observe(machine, [replace(log, tau=log.tau + noisy)])
     (said, *_) = find_log_faults(machine, observation)
     assert said.is_undetectable and said.line.startswith("Not detectable in these logs: ")
-    seen = log_faults._gather_evidence(machine, observation)
+    seen = gather_evidence(machine, observation)
     beta, _ = seen.judge.solve(seen.data)
     torque, every = seen.rows.W @ beta, np.eye(3)
     checked = set()
