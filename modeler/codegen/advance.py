@@ -13,7 +13,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from modeler.codegen.functions import Arguments, CFunction, Composed, make_arguments
+from modeler.codegen.functions import CFunction, Composed, make_arguments
+from modeler.codegen.thresholds import THRESHOLDS
 from modeler.derivation import (
     MOTOR_MOTION,
     BaseParameters,
@@ -25,10 +26,6 @@ from modeler.derivation import (
     evaluate_followed,
     get_signal_symbol,
 )
-
-RESET_TURNS = 2
-"""Corrections of e at rest, each by the gravity of the one before: gravity changes by about 1 % of
-K e over e, so that what is left is 1e-4 of e."""
 
 
 def build_advance_functions(
@@ -59,15 +56,21 @@ def build_advance_functions(
     if not model.windups:
         return [arguments.declare("advance", values, words)]
     travels = any(s.kind in ("slip", "bouc_wen", "direction") for s in model.signals)
-    words = {"first": "q qd qdd", "dq": "dq" * travels, "motion": "beta elastic"}
+    sizes = {"command": 3 * arguments.words["n"] + len(model.signals)}
+    words = {"first": "q qd qdd", "dq": "dq" * travels, "motion": "beta elastic"} | sizes
     reset = _rest_windups(model, beta, elastic)
     rest = [reset.get(signal, model.graph.constant(0)) for signal in model.signals]
     functions = []
-    for role, each in {"advance": values, "reset": rest}.items():
+    outputs = {
+        "advance": values,
+        "reset": rest,
+        "elastic_feedforward": _plan_command(model, beta, elastic),
+    }
+    for role, each in outputs.items():
         step = arguments.declare(f"{role}_step", each, words, row=role, internal=True)
         made = Composed("stepped", {"step": step.role})
         functions += [step, arguments.declare(role, words=words, composed=made)]
-    return [*functions, _build_feedforward(model, beta, elastic, arguments)]
+    return functions
 
 
 def _advance_signal(model: SymbolicModel, signal: Signal, now: Mapping[Signal, Expr]) -> Expr:
@@ -176,21 +179,22 @@ def _rest_windups(
     """e that holds the links along the motion, without speed of its own."""
     zero = model.graph.constant(0)
     held = dict.fromkeys(model.windups, zero)
-    for _ in range(RESET_TURNS if held else 0):
+    for _ in range(THRESHOLDS.reset_turns if held else 0):
         still = replace(model, deflections={k: (e, zero, zero) for k, e in held.items()})
         torques = still.derive_torque(beta, effects=False)
         held = {k: torques[k] / K for k, K in zip(held, elastic, strict=False)}
     return {model.windups[k][0]: e for k, e in held.items()}
 
 
-def _build_feedforward(
-    model: SymbolicModel, beta: Mapping[int, Expr], elastic: Sequence[Expr], arguments: Arguments
-) -> CFunction:
+def _plan_command(
+    model: SymbolicModel, beta: Mapping[int, Expr], elastic: Sequence[Expr]
+) -> list[Expr]:
     """What motors do where the links are on the command: D e' + K e = links(q, qd, qdd).
 
-    e' is the difference since the last sample, and e'' that of e'.
+    Torques, positions and speeds of the motors, and the signals planned; e' is the difference
+    since the last sample, and e'' that of e'.
     """
-    h, n, E = model.graph.symbol("dt[0]"), arguments.words["n"], list(model.windups)
+    h, E = model.graph.symbol("dt[0]"), list(model.windups)
     tau = model.rigid.derive_torque(beta, effects=False)
     plan = dict[Signal, Expr]()
     motors = [model.get_inputs(kind) for kind in MOTOR_MOTION]
@@ -207,9 +211,7 @@ def _build_feedforward(
     losses = moved.derive_torque(beta, links=False)
     tau = [link + motor for link, motor in zip(tau, losses, strict=True)]
     rest = [plan.get(signal, get_signal_symbol(model, signal)) for signal in model.signals]
-    values = [*tau, *motors[0], *motors[1], *rest]
-    words = {"command": 3 * n + len(model.signals)}
-    return arguments.declare("elastic_feedforward", values, words)
+    return [*tau, *motors[0], *motors[1], *rest]
 
 
 def solve_linear(

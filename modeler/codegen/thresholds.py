@@ -13,6 +13,10 @@ class Thresholds:
     # casadi_functions
     max_compared_depth: int = 1000
     """Nodes to which two speeds are compared. No study."""
+    # advance
+    reset_turns: int = 2
+    """Corrections of e of elastic joints at rest, each by the gravity of the one before: gravity
+    changes by about 1 % of K e over e, so that what is left is 1e-4 of e."""
     # context
     max_relative_rounding: float = 1e-12
     """A cell and its exact entry differ by rounding, 1e-16 an operation. No study."""
