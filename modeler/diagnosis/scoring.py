@@ -319,9 +319,14 @@ class ScoredCandidate(ShortRepr):
 
     @property
     def is_significant(self) -> bool:
-        """Returns whether it is significant."""
+        """Returns whether it is significant.
+
+        Filters distort as an effect of a small share of the torque does, but not as a fitted windup
+        with a certain stiffness.
+        """
         big = self.variance_reduction > THRESHOLDS.min_variance_reduction
-        big = big and self.torque_share > THRESHOLDS.min_torque_share
+        large = self.torque_share > THRESHOLDS.min_torque_share
+        big = big and (large or self.candidate.elastic is not None)
         shown = self.visible_share > THRESHOLDS.min_visible_share
         certain = self.t_ratio > THRESHOLDS.min_t_ratio and self.is_confirmed
         return big and shown and certain and self.is_possible
