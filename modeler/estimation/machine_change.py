@@ -188,7 +188,7 @@ def fit_machine(sums: BlockSums) -> SingleFit:
 
 def convert_model_fit(model: IdentifiedModel) -> SingleFit:
     """Returns the fit of a model as that of one set of logs, with the covariance that it states."""
-    covariance = model.covariance
+    covariance = np.nan_to_num(model.covariance)
     known = np.diag(covariance) > 0.0
     information = np.where(np.outer(known, known), _invert(covariance), 0.0)
     sigmas = {joint.name: joint.sigma for joint in model.fit.joints}
