@@ -225,19 +225,18 @@ def _build_block_function(logs: Residuals, block: float) -> Callable[[Residuals,
     spans = {int(r): (time[run == r].min(), time[run == r].max()) for r in np.unique(run)}
     total = sum(b - a for a, b in spans.values())
     length = float(block or max(THRESHOLDS.block_duration, total / THRESHOLDS.max_blocks))
-    count, ends = 0, {}
-    for r, (a, b) in spans.items():  # numbers of the first and the last block of a log
-        last = count + int((b - a) / length)
-        ends[r], count = (count, last), last + 1
+
+    def key_rows(run: np.ndarray, time: np.ndarray) -> np.ndarray:
+        """A number for each row, of its log and its block there; equal in a block, and rising."""
+        start = np.array([spans[int(r)][0] for r in run])
+        return np.asarray(run.astype(np.int64) * 2**32 + ((time - start) / length).astype(np.int64))
+
+    blocks = np.unique(key_rows(run, time))  # those with rows: a log may pause for days
 
     def compute_shares(residuals: Residuals, j: int) -> np.ndarray:
-        number = np.zeros(len(residuals.run[j]), dtype=int)
-        for r, (start, _) in spans.items():
-            is_in_log = residuals.run[j] == r
-            since = np.floor((residuals.time[j][is_in_log] - float(start)) / length).astype(int)
-            number[is_in_log] = np.clip(ends[r][0] + since, *ends[r])
+        number = np.searchsorted(blocks, key_rows(residuals.run[j], residuals.time[j]))
         size = float(residuals.torque[j] @ residuals.torque[j])
-        return np.bincount(number, residuals.residual[j] ** 2, count) / size
+        return np.bincount(number, residuals.residual[j] ** 2, len(blocks)) / size
 
     return compute_shares
 

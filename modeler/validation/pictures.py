@@ -34,6 +34,8 @@ _COLORS = {
     "impossible derivative": fig.PALE["green"],
     "filter end": fig.PALE["yellow"],
     "loops open": fig.PALE["pink"],
+    "push": fig.PALE["orange"],
+    "unknown state": fig.PALE["blue"],
     GAP: fig.PALE["yellow"],
     OTHER: fig.PALE["brown"],
 }

@@ -271,9 +271,9 @@ def made() -> Prediction:
     whole = prediction(lambda q, qd, qdd, tau, t: 0.5 * qd, rows=4800)
     masks = np.full(whole.used.shape, -1, dtype=np.int8)
     for k in range(len(MASKS)):
-        masks[400 * k + 100 : 400 * k + 160, 0] = k
+        masks[300 * k + 100 : 300 * k + 160, 0] = k
     used = masks < 0
-    used[2200:2250, 0] = False  # for no reason of its own
+    used[2300:2350, 0] = False  # for no reason of its own
     piece = whole.segment.copy()
     piece[1500:] += 1
     time = whole.time.copy()
@@ -314,8 +314,8 @@ def test_what_is_shaded_is_what_does_not_count(made: Prediction) -> None:
     np.testing.assert_array_equal(shaded, ~made.used[:, 0])
     for k, name in enumerate(MASKS):
         (start, end) = spans[name][0]
-        assert made.time[400 * k + 100] - start == pytest.approx(0.005)
-        assert end - made.time[400 * k + 159] == pytest.approx(0.005)
+        assert made.time[300 * k + 100] - start == pytest.approx(0.005)
+        assert end - made.time[300 * k + 159] == pytest.approx(0.005)
     gap = spans["no rows"]
     assert gap.shape == (1, 2) and np.ptp(gap) == pytest.approx(0.7)
     assert (

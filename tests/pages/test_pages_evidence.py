@@ -13,6 +13,7 @@ from modeler.core.figure import Band, Curve, Means, Panel, Picture
 from modeler.diagnosis.diagnosis import diagnose
 from modeler.diagnosis.ranking import build_gram_blocks
 from modeler.diagnosis.result import Diagnosis
+from modeler.numerics.least_squares import compute_joint_whitening
 from modeler.regression.log import Log
 from modeler.robot.read import parse_robot_text
 from modeler.views import evidence
@@ -254,7 +255,9 @@ def test_a_law_is_as_sure_as_repetition_shows(hold: int) -> None:
     for _ in range(80):
         noise = [np.repeat(random.normal(size=600 // hold), hold) for _ in W]
         y = [w @ truth + e for w, e in zip(W, noise, strict=True)]
-        base = build_gram_blocks(W, y, np.ones(2), [block, block], np.arange(30) % 8)
+        whitener = compute_joint_whitening(W, np.ones(2))
+        weights = np.ones(2), [block, block], np.arange(30) % 8, whitener, np.zeros((0, 5))
+        base = build_gram_blocks(lambda values: [w @ values for w in W], y, *weights)
         theta = np.linalg.lstsq(np.vstack(W), np.concatenate(y), rcond=None)[0]
         values.append(theta)
         said.append(np.diag(compute_covariance(base)))

@@ -179,7 +179,7 @@ def test_latex_has_the_values_of_the_text(every, name, form) -> None:
     numbers = rng.uniform(0.2, 1.4, (3, free))
     start = known(derivation, *numbers, rng.uniform(0.2, 1.4, derivation.base.rank))
     sheet = form(derivation.model, derivation.base).sheet
-    start |= {f"{signal}{j}": 0.5 for signal in "tTz" for j in "123"}
+    start |= {f"{signal}{j}": 0.5 for signal in "tTz" for j in "1234"}
     text = run_lines(format_sheet(sheet).splitlines(), start | {"exp": np.exp, "tanh": np.tanh})
     latex = {SheetPrinter(sheet, LATEX).format_letter(key): value for key, value in start.items()}
     assert len(latex) == len(start)
