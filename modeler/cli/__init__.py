@@ -24,6 +24,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     # Our matrices are small: on a busy machine, waiting for a second thread of the linear algebra
     # tripled the time of `derive panda` (0.4 s to 1.2 s). Before numpy is loaded.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    # What Arrow has read a log with is then free for arrays.
+    os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
     # Everything that takes time is loaded where an interrupt is expected.
     try:
         from modeler.cli.program import run_in_process, run_program

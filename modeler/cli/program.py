@@ -52,8 +52,8 @@ def _retain_freed_memory() -> None:
             set_option(option, value)
 
 
-_HEAP_OPTIONS = {-8: 1, -4: 0, -1: 2**30}
-"""Of `malloc.h`: M_ARENA_MAX, M_MMAP_MAX and M_TRIM_THRESHOLD, bytes."""
+_HEAP_OPTIONS = {-8: 1, -3: 2**24, -1: 2**26}
+"""Of `malloc.h`: M_ARENA_MAX, then M_MMAP_THRESHOLD and M_TRIM_THRESHOLD, bytes."""
 
 
 def run_in_process(words: Sequence[str]) -> int:

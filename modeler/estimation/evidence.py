@@ -171,25 +171,6 @@ class Evidence:
         """Returns `predict_blocks` of the log as it is."""
         return self.predict_blocks(self.rows.W)
 
-    def shift_torques(
-        self, seconds: float, share: np.ndarray, beta: np.ndarray | None
-    ) -> np.ndarray:
-        """Returns columns of the motion of each joint that many seconds times share (n,) later.
-
-        With parameters beta (c,) their torques; those of all joints alike are asked for repeatedly.
-        """
-        if beta is None or not np.all(share == 1.0):
-            return self.rows.shift_columns(self.compiled, seconds * share, beta)
-        key = seconds, beta.tobytes()
-        if key not in self._shifted_torques:
-            later = self.rows.shift_columns(self.compiled, seconds * share, beta)
-            self._shifted_torques[key] = later
-        return self._shifted_torques[key]
-
-    @cached_property
-    def _shifted_torques(self) -> dict[tuple[float, bytes], np.ndarray]:
-        return {}
-
     @property
     def is_tree(self) -> bool:
         """Returns True without loops: positions that do not close loops have no torque."""

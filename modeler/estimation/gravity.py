@@ -94,8 +94,11 @@ class ThinnedRows:
     ) -> np.ndarray:
         """Returns (m, n, c) columns of the motion of each joint, shift (n,) s later.
 
-        With parameters beta (c,) their torques, (m, n).
+        With parameters beta (c,) their torques, (m, n); of all joints alike they are made once.
         """
+        key = shift.tobytes(), b"" if beta is None else beta.tobytes()
+        if key in self._shifted_torques:
+            return self._shifted_torques[key]
         motion, first = self.motion.copy(), 0
         for s, k in self.samples:
             part = motion[:, first : first + len(k)]
@@ -106,7 +109,14 @@ class ThinnedRows:
                 above = np.clip(place - below, 0.0, 1.0)
                 for moved, x in zip(part, (s.q, s.qd, s.qdd), strict=True):
                     moved[:, j] = x[below, j] * (1.0 - above) + x[below + 1, j] * above
-        return self._evaluate_columns(compiled, motion, beta)
+        columns = self._evaluate_columns(compiled, motion, beta)
+        if beta is not None and np.ptp(shift) == 0.0:
+            self._shifted_torques[key] = columns
+        return columns
+
+    @cached_property
+    def _shifted_torques(self) -> dict[tuple[bytes, bytes], np.ndarray]:
+        return {}
 
     def _evaluate_columns(
         self, compiled: CompiledModel, motion: Iterable[np.ndarray], beta: np.ndarray | None

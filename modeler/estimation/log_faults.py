@@ -326,7 +326,7 @@ class _Channel:
         for vector in np.unique(self.shifts, axis=0):
             if vector.any():
                 alike = (self.shifts == vector).all(axis=1)
-                moved = self.seen.shift_torques(seconds, vector, beta)
+                moved = rows.shift_columns(self.seen.compiled, seconds * vector, beta)
                 columns[:, alike] = moved[:, alike]
         return columns
 

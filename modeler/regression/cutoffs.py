@@ -1,11 +1,10 @@
 """The cut-offs of both filters: where the torques answer to the motion, and no further."""
 
 import dataclasses
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -13,8 +12,7 @@ from modeler.core.json import ShortRepr, select_attributes
 from modeler.numerics.filters import BANDWIDTH, SPREAD
 from modeler.numerics.least_squares import solve_scaled_least_squares
 from modeler.regression import prepare
-from modeler.regression.log import RawSegment
-from modeler.regression.motion import Processing, Segment, build_segment, compute_edge
+from modeler.regression.motion import Processing, Segment, build_segment
 from modeler.regression.motion_noise import Bands, ChannelNoise, MotionNoise
 from modeler.regression.observation import Observation, assemble_observation
 from modeler.regression.report import DataReport
@@ -173,9 +171,14 @@ class CutoffSearch(ShortRepr):
         if position not in self._segments_by_cutoff:
             pieces, chosen = self.prepared.pieces, self.prepared.processing
             chosen = dataclasses.replace(chosen, position_cutoff=position)
+            every = [build_segment(piece, chosen) for piece in pieces]
             share = THRESHOLDS.search_samples / sum(len(piece.time) for piece in pieces)
-            every = (part for piece in pieces for part in _build_windows(piece, chosen, share))
-            parts = [prepare.close_segment(self.model, part)[0] for part in every]
+            parts = [
+                prepare.close_segment(self.model, _cut_segment(segment, place))[0]
+                for segment in every
+                if segment is not None
+                for place in _spread_windows(segment.samples, share)
+            ]
             self._segments_by_cutoff[position] = tuple(part for part in parts if part.whole.any())
         return self._segments_by_cutoff[position]
 
@@ -257,23 +260,7 @@ class ChatterFreeCutoffs(ShortRepr):
     joint: int | None
 
 
-def _build_windows(piece: RawSegment, processing: Processing, share: float) -> Iterator[Segment]:
-    """Yields windows of a piece behind its filter, started so far off that nobody sees where."""
-    samples, cutoff = len(piece.time), max(processing.position_cutoff or 0.0, 1e-9)
-    reach = 2 * compute_edge(piece, processing)
-    reach += math.ceil(THRESHOLDS.settling_periods / (cutoff * piece.step))
-    for place in _spread_windows(samples, share):
-        first = max(0, place.start - reach)
-        some = _cut_segment(piece, slice(first, min(samples, place.stop + reach)))
-        segment = build_segment(some, processing)
-        if segment is not None:
-            yield _cut_segment(segment, slice(place.start - first, place.stop - first))
-
-
-Cut = TypeVar("Cut", Segment, RawSegment)
-
-
-def _cut_segment(segment: Cut, place: slice) -> Cut:
+def _cut_segment(segment: Segment, place: slice) -> Segment:
     """Returns the samples of a segment in some place of it."""
     arrays: dict[str, Any] = {
         member.name: x[place]

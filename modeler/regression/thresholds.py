@@ -122,8 +122,6 @@ class Thresholds:
     """A fit of fewer leaves less than their noise."""
     crossover_fits: int = 4
     """By which the parallel cut-off is found."""
-    settling_periods: float = 16.0
-    """Periods of the cut-off in which the position filter forgets: exp(-2.4 x 16) = 2e-17."""
     search_samples: int = 2**15
     """Of the logs, by which cut-offs are chosen."""
     min_residual_share: float = 1e-6
