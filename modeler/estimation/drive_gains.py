@@ -271,7 +271,8 @@ def identify_gains(
         )
     estimate = _estimate_gains(observation, loaded)
     scaled = dataclasses.replace(observation, torque=observation.torque * estimate.gains)
-    equations = dataclasses.replace(loaded.equations, y=scaled.y - loaded.torques.sum(axis=1))
+    y = scaled.y - loaded.torques.sum(axis=1)
+    equations = dataclasses.replace(loaded.equations, observation=scaled, y=y)
     fit = fit_equations(scaled, equations, "weighted")
     autocorrelation = _estimate_autocorrelation(scaled, equations, estimate)
     if why := _explain_ambiguity(observation, estimate, autocorrelation):

@@ -117,6 +117,17 @@ def test_gains_and_parameters_of_an_arm(arm):
     assert {"MX3_load", "XX3_load"} <= {p.name for p in fit.loads}
 
 
+def test_parameters_do_not_depend_on_the_unit_of_the_currents(arm):
+    """Nor on what is known beforehand of torques, which currents are not."""
+    here, there = (
+        identify_gains(arm.compiled, arm.seen(TRUE * unit), [arm.payload()]).result
+        for unit in (1.0, 1e3)
+    )
+    assert_allclose(
+        [p.value for p in there.parameters], [p.value for p in here.parameters], rtol=1e-6
+    )
+
+
 @pytest.mark.parametrize("factor", [0.95, pytest.param(1.05, marks=pytest.mark.rotating)])
 def test_a_weight_that_contradicts_is_told_with_its_factor(arm, factor):
     """Gains are right, and the load is said to weigh so many times what it does."""
