@@ -125,12 +125,15 @@ class CandidateScan:
         fits: candidates that show.
         best: every effect on every joint at the best of its shapes, none refined, best first.
         refined_scores: effects that were refined, by the shapes that this began with.
+        rigid_joints: joints, and their resonance by the column for slow motion, whose fitted
+            windup was none of an elastic joint in this search: they are not fitted again.
     """
 
     state: State
     fits: Sequence[CandidateFit]
     best: Sequence[ScoredCandidate]
     refined_scores: dict[tuple[Any, ...], ScoredCandidate] = field(default_factory=dict)
+    rigid_joints: set[tuple[str | None, float]] = field(default_factory=set)
 
     def list_still_refused(self, refused: Sequence[ScoredCandidate]) -> list[ScoredCandidate]:
         """Lists vetoed effects that have not become far better since."""
@@ -153,7 +156,7 @@ class CandidateScan:
         scores = score_candidates(self.state, plausibility.pair_columns(self.state, again))
         best = [*(j for j in self.best if j.key not in touched), *scores]
         best.sort(key=lambda j: -j.total_reduction)
-        return CandidateScan(self.state, left, best, self.refined_scores)
+        return replace(self, fits=left, best=best)
 
     def judge_candidates(
         self, vetoed: Sequence[ScoredCandidate] = (), tick: Tick = lambda: None
@@ -175,6 +178,8 @@ class CandidateScan:
             refined[item.key] = self.refined_scores[key]
             tick()
         best = [refined.get(j.key, j) for j in left.best]
+        # the column for slow motion says where to look, and is no effect
+        best = [j for j in best if j.candidate.elastic or not j.candidate.effect.is_oscillator]
         return select_best(self.state, sorted(best, key=lambda j: -j.total_reduction))
 
     def _list_likely_windups(self, best: Sequence[ScoredCandidate]) -> list[ScoredCandidate]:
@@ -188,6 +193,7 @@ class CandidateScan:
             return []
         others = any(pick.elastic is not None for pick in state.picks) or state.spec.windups
         rings = rings[: THRESHOLDS.max_fitted_windups]
+        rings = [j for j in rings if _key_resonance(j.candidate) not in self.rigid_joints]
         if others:
             return rings
         likely = [j for j in rings if j.total_share > share * best[0].total_share]
@@ -217,6 +223,8 @@ class CandidateScan:
         candidate = fit_elastic_joint(self.state, score.candidate)
         if candidate is None:
             return score
+        if candidate.elastic is not None and not candidate.elastic.is_plausible:
+            self.rigid_joints.add(_key_resonance(score.candidate))
         columns = self.state.rows.build_columns(candidate)
         pairs = [(candidate, columns)]
         return score_candidates(self.state, pairs)[0] if is_visible(columns) else score
@@ -244,6 +252,10 @@ class CandidateScan:
             others = (v for n, v in c.nonlinear_parameters.items() if n != refined[0])
             best.setdefault(tuple(others), c)
         return list(best.values())
+
+
+def _key_resonance(candidate: Candidate) -> tuple[str | None, float]:
+    return candidate.joint, candidate.nonlinear_parameters.get("f", 0.0)
 
 
 def scan_catalogue(
@@ -382,7 +394,7 @@ def search_effects(
             refused, every = [*refused, best], [*every, best]
             judgement = other or nothing
             continue
-        survey = scan_catalogue(later, without)
+        survey = replace(scan_catalogue(later, without), rigid_joints=survey.rigid_joints)
         doubted = _find_displaced_candidates(refused, best)
         refused = survey.list_still_refused(refused)
         after = survey.judge_candidates(refused, tick)

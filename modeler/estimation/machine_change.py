@@ -411,6 +411,10 @@ def compare_machines(spec: ModuleSpec, before: SingleFit, after: BlockSums) -> M
     likeliest = best.hypotheses[0].parameters[0].effect
     fit = _select_changes(seen, proposed)
     nothing = np.zeros_like(fit.torque_columns)
+    torque = np.sqrt(after.squares.sum(axis=-1) / np.maximum(after.count.sum(axis=-1), 1))
+    described = before.sigma <= THRESHOLDS.max_compared_error * torque
+    if not described[seen.weights > 0.0].all():  # other motion differs as much
+        return MachineComparison((), (), nothing, likeliest)
     if unexplained := _find_unexplained(seen, fit):
         return MachineComparison((), unexplained, nothing, likeliest)
     explains = seen.fit(()).misfit - fit.misfit >= THRESHOLDS.min_change_misfit
