@@ -17,7 +17,7 @@ REFUSED = {
     "encoder_offset --joint 3": "encoder_offset: cannot be distinguished from what the model",
     "encoder_offset --joint 1": "encoder_offset: these logs show nothing of it",
     "time_delay --joint 2": "time_delay acts on the whole robot, not on one joint",
-    "elasticity --joint 2": "elasticity: no resonance of joint 2 explains these logs",
+    "elasticity --joint 2": "elasticity: these logs show nothing of it",
     "external_force": "external_force: no torque acts once in these logs",
     "undo": "undo: no effect was added to this model",
     "undo --effects-from .": "got it with undo; expected an effect of the folder, or auto",
