@@ -56,7 +56,7 @@ def added_to(hide, seed):
 CASES = {
     # The dip in the sample's own law; presliding undamped, as Dahl wrote it.
     "stribeck": ("stribeck@2", lambda v: [v["extra"]]),
-    "presliding": ("presliding@2:damping=0.5", lambda v: [v["level"]]),
+    "presliding": ("presliding@2:damping=0.5", lambda v: [v["level"], v["damping"]]),
     "load_friction": ("load_friction@3", lambda v: [v["coefficient"]]),
     "joint_ripple": (
         "joint_ripple@2",
